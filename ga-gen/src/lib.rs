@@ -1,0 +1,1 @@
+//! Symbolic geometric algebra.
