@@ -4,6 +4,9 @@ extern crate alloc;
 extern crate self as ga_physics;
 
 pub mod algebra;
+
+pub use ga_macros::{__algebra_with_base, algebra};
+
 pub mod geometry;
 #[cfg(feature = "cli")]
 pub mod io;

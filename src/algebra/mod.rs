@@ -1,24 +1,22 @@
-//! Temporary hand-written stand-ins with the shape of the generated types.
+//! Geometric algebra: the scalar traits, the two generated algebras, and the grade-tracked baseline that they replace.
+//!
+//! [`g3`] is G(3,0), [`cga`] the conformal algebra G(4,1), which extends it: a [`g3::Rotor`] *is* the rotor of both.
+//! Their types and products are written by [`algebra!`](crate::algebra!) at compile time; each item's documentation
+//! shows its formula and operation counts, printed from the same program as its code. The algebra knows no geometry.
 
-/// G(3,0).
-pub mod g3 {
-    /// Vector.
-    #[derive(Clone, Copy, Debug, PartialEq, Default)]
-    #[allow(missing_docs, reason = "stand-in")]
-    pub struct Vector<T = f64> {
-        pub e1: T,
-        pub e2: T,
-        pub e3: T,
-    }
-}
-/// G(4,1).
-pub mod cga {
-    /// Point.
-    #[derive(Clone, Copy, Debug, PartialEq, Default)]
-    #[allow(missing_docs, reason = "stand-in")]
-    pub struct Point<T = f64> {
-        pub x: T,
-        pub y: T,
-        pub z: T,
-    }
+pub mod cga;
+pub mod dynamic;
+pub mod g3;
+mod scalar;
+
+pub use scalar::{Real, Scalar};
+
+/// A versor that maps `x` to `v x ~v`.
+///
+/// Generated types call it through their inherent `apply`; the trait exists so that one versor applies to many types.
+pub trait Apply<X> {
+    /// The type of the image: that of `x` wherever it can hold it.
+    type Output;
+    /// `v x ~v`.
+    fn apply(self, x: X) -> Self::Output;
 }

@@ -1,0 +1,113 @@
+//! Tokens of straight-line scalar code.
+
+use crate::program::{Product, Program, Step, Value};
+use crate::scalar::Rational;
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{format_ident, quote};
+
+/// Sums of up to this many terms are a chain; longer ones a balanced tree, which has the shorter dependency chain and
+/// the smaller error bound.
+const LONGEST_CHAIN: usize = 4;
+
+/// `let` statements for the shared steps.
+pub(super) fn steps(program: &Program) -> TokenStream {
+    program.steps.iter().map(statement).collect()
+}
+
+fn statement(step: &Step) -> TokenStream {
+    let (name, value) = (path(&step.name), value(&step.value));
+    quote!(let #name = #value;)
+}
+
+/// The expression of a step or output.
+pub(super) fn value(value: &Value) -> TokenStream {
+    match value {
+        Value::Quotient(numerator, denominator) => {
+            let (numerator, denominator) = (constant(*numerator), path(denominator));
+            quote!(#numerator / #denominator)
+        }
+        Value::Sqrt(radicand) => {
+            let radicand = path(radicand);
+            quote!(::ga_physics::algebra::Scalar::sqrt(#radicand))
+        }
+        Value::Sum(products) if products.is_empty() => constant(Rational::ZERO),
+        Value::Sum(products) => sum(products),
+    }
+}
+
+/// Positive products stand first; so if the first is negative, all are.
+fn sum(products: &[Product]) -> TokenStream {
+    if products.len() > LONGEST_CHAIN {
+        let (left, right) = products.split_at(products.len().div_ceil(2));
+        if right[0].coefficient.is_negative() {
+            let right: Vec<Product> = right.iter().map(negated).collect();
+            let (left, right) = (sum(left), sum(&right));
+            return quote!((#left) - (#right));
+        }
+        let (left, right) = (sum(left), sum(right));
+        return quote!((#left) + (#right));
+    }
+    let mut tokens = TokenStream::new();
+    for (index, term) in products.iter().enumerate() {
+        let negative = term.coefficient.is_negative();
+        if index == 0 {
+            tokens.extend(signed_product(term));
+        } else {
+            let product = product(term.coefficient.abs(), &term.factors);
+            tokens.extend(if negative { quote!(- #product) } else { quote!(+ #product) });
+        }
+    }
+    tokens
+}
+
+fn negated(product: &Product) -> Product {
+    Product { coefficient: -product.coefficient, factors: product.factors.clone() }
+}
+
+fn signed_product(term: &Product) -> TokenStream {
+    if term.coefficient == -Rational::ONE && !term.factors.is_empty() {
+        let product = product(Rational::ONE, &term.factors);
+        return if term.factors.len() == 1 { quote!(-#product) } else { quote!(-(#product)) };
+    }
+    product(term.coefficient, &term.factors)
+}
+
+fn product(coefficient: Rational, factors: &[String]) -> TokenStream {
+    let mut parts: Vec<TokenStream> = Vec::new();
+    if coefficient != Rational::ONE || factors.is_empty() {
+        parts.push(constant(coefficient));
+    }
+    parts.extend(factors.iter().map(|factor| path(factor)));
+    let mut parts = parts.into_iter();
+    let first = parts.next();
+    quote!(#first #(* #parts)*)
+}
+
+/// `T::ratio(n, d)`, which folds to a literal for floats.
+fn constant(value: Rational) -> TokenStream {
+    let part = |n: i128| Literal::i32_unsuffixed(i32::try_from(n).unwrap_or(i32::MAX));
+    let (magnitude, denominator) = (part(value.numerator().abs()), part(value.denominator()));
+    let numerator = if value.is_negative() { quote!(-#magnitude) } else { quote!(#magnitude) };
+    quote!(T::ratio(#numerator, #denominator))
+}
+
+/// `a.e1` or a local name.
+fn path(name: &str) -> TokenStream {
+    let mut parts = name.split('.').map(identifier);
+    let first = parts.next();
+    quote!(#first #(.#parts)*)
+}
+
+/// An identifier from a generated name.
+pub(super) fn identifier(name: &str) -> Ident {
+    if syn::parse_str::<Ident>(name).is_ok() { Ident::new(name, Span::call_site()) } else { format_ident!("{name}_") }
+}
+
+/// Does the program read a parameter?
+pub(super) fn reads(program: &Program, parameter: &str) -> bool {
+    let prefix = format!("{parameter}.");
+    program.steps.iter().chain(&program.outputs).any(|step| match &step.value {
+        Value::Quotient(_, name) | Value::Sqrt(name) => name.starts_with(&prefix),
+        Value::Sum(products) => products.iter().any(|product| product.factors.iter().any(|f| f.starts_with(&prefix))),
+    })
+}

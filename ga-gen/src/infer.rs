@@ -1,0 +1,99 @@
+//! Which declared type holds a result: the smallest one that is *proved* to.
+//!
+//! A type holds a multivector if every blade present is one of the type's, every constant and derived coefficient has
+//! the value that the fields imply, and the type's facts hold. All of it is decided on fingerprints, on the manifold of
+//! the inputs: so the product of two unit rotors is seen to be a unit rotor, the difference of two points is not taken
+//! for a plane, and a sphere moved by a motor is seen to keep its radius.
+
+use crate::blade::Blade;
+use crate::field::Fingerprint;
+use crate::lower::Components;
+use crate::program::{Builder, Scaled};
+use crate::scalar::Rational;
+use crate::spec::{Spec, Type};
+use std::collections::BTreeMap;
+
+/// The type of a result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Output {
+    /// A bare scalar.
+    Scalar,
+    /// A declared type.
+    Type(usize),
+}
+
+/// The smallest type that holds the components, with its fields; ties go to the first declared.
+#[must_use]
+pub fn infer(spec: &Spec, builder: &mut Builder, components: &Components, full_allowed: bool) -> Option<(Output, Vec<Scaled>)> {
+    if components.is_empty() {
+        return None;
+    }
+    if let Some(value) = as_scalar(components) {
+        return Some((Output::Scalar, vec![value]));
+    }
+    let mut candidates: Vec<usize> = (0..spec.types.len()).filter(|i| full_allowed || !spec.is_full(*i)).collect();
+    candidates.sort_by_key(|index| spec.types[*index].fields.len());
+    candidates.into_iter().find_map(|index| Some((Output::Type(index), fit(spec, builder, components, index)?)))
+}
+
+fn as_scalar(components: &Components) -> Option<Scaled> {
+    (components.len() == 1).then(|| components.get(&Blade::SCALAR).copied()).flatten()
+}
+
+/// The fields of a type that hold the components, if it holds them.
+pub fn fit(spec: &Spec, builder: &mut Builder, components: &Components, index: usize) -> Option<Vec<Scaled>> {
+    let ty = &spec.types[index];
+    if components.keys().any(|blade| !ty.coefficients.contains_key(blade)) {
+        return None;
+    }
+    let fields = solve(builder, components, ty)?;
+    let values: Vec<Fingerprint> = fields.iter().map(|field| builder.fingerprint(*field)).collect();
+    let proved = ty.coefficients.iter().all(|(blade, polynomial)| {
+        let actual = components.get(blade).copied().unwrap_or(Scaled::ZERO);
+        polynomial.fingerprint(&values) == builder.fingerprint(actual)
+    });
+    (proved && (!ty.unit || is_unit(spec, builder, components))).then_some(fields)
+}
+
+/// Fields from coefficients: stored ones directly, then those that occur linearly in a derived coefficient.
+fn solve(builder: &mut Builder, components: &Components, ty: &Type) -> Option<Vec<Scaled>> {
+    let actual = |blade: &Blade| components.get(blade).copied().unwrap_or(Scaled::ZERO);
+    let mut fields: Vec<Option<Scaled>> = vec![None; ty.fields.len()];
+    for (blade, polynomial) in &ty.coefficients {
+        if let Some((factor, field)) = polynomial.as_stored() {
+            fields[field] = Some(actual(blade).scaled(factor.recip()?));
+        }
+    }
+    for (blade, polynomial) in &ty.coefficients {
+        let unknown: Vec<usize> = polynomial.fields().into_iter().filter(|f| fields[*f].is_none()).collect();
+        let [field] = unknown[..] else { continue };
+        let inverse = polynomial.linear_in(field)?.recip()?;
+        let mut products = vec![(inverse, vec![actual(blade)])];
+        for (term, value) in polynomial.terms().filter(|(term, _)| !term.contains(&field)) {
+            let scalars: Option<Vec<Scaled>> = term.iter().map(|f| fields[*f]).collect();
+            products.push((-(value * inverse), scalars?));
+        }
+        fields[field] = Some(builder.sum(&products, &ty.fields[field]));
+    }
+    fields.into_iter().collect()
+}
+
+/// `x ~x = 1` on the manifold of the inputs.
+fn is_unit(spec: &Spec, builder: &Builder, components: &Components) -> bool {
+    let mut product: BTreeMap<Blade, Fingerprint> = BTreeMap::new();
+    for (a, x) in components {
+        for (b, y) in components {
+            let reverse = if b.reverse_is_negative() { -Rational::ONE } else { Rational::ONE };
+            let value = builder.fingerprint(*x).times(builder.fingerprint(*y));
+            for (blade, c) in spec.signature.geometric(*a, *b) {
+                let term = value.times(Fingerprint::constant(c * reverse));
+                let sum = product.entry(blade).or_insert(Fingerprint::constant(Rational::ZERO));
+                *sum = sum.plus(term);
+            }
+        }
+    }
+    product.into_iter().all(|(blade, value)| match blade {
+        Blade::SCALAR => value == Fingerprint::constant(Rational::ONE),
+        _ => value.is_zero(),
+    })
+}

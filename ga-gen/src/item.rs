@@ -1,0 +1,255 @@
+//! The items of an algebra: every operation that exists for some types, compiled.
+
+use crate::expression::Expression;
+use crate::infer::{self, Output};
+use crate::kernel;
+use crate::lower::{Components, Lowering, Sandwich, may_expand};
+use crate::optimise::optimise;
+use crate::product::Kind;
+use crate::program::{Builder, Program, Scaled};
+use crate::signature::Kind as Metric;
+use crate::spec::Spec;
+
+/// An operation on declared types, by index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operation {
+    /// `a * b`, `a ^ b`, `a | b`.
+    Product(Kind, usize, usize),
+    /// `a & b`.
+    Meet(usize, usize),
+    /// `a.rev()`.
+    Reverse(usize),
+    /// `a.dual()`.
+    Dual(usize),
+    /// `a.undual()`.
+    Undual(usize),
+    /// `a.grade2()`.
+    Grade(u32, usize),
+    /// `a.norm_sq()`.
+    NormSq(usize),
+    /// `a.apply(b)`.
+    Apply(usize, usize),
+    /// A type held by a larger one.
+    Embed(usize, usize),
+    /// A named formula.
+    Kernel(usize),
+}
+
+/// A compiled operation.
+#[derive(Clone, Debug)]
+pub struct Item {
+    /// The operation.
+    pub operation: Operation,
+    /// The name under which it is inspected: `Rotor*Rotor`, `Motor.apply(Point)`, `circumsphere`.
+    pub name: String,
+    /// Names and types of the parameters.
+    pub parameters: Vec<(String, usize)>,
+    /// The type of the result.
+    pub output: Output,
+    /// The scalar code.
+    pub program: Program,
+}
+
+/// All operations that may exist; [`compile`] says which do.
+#[must_use]
+pub fn operations(spec: &Spec) -> Vec<Operation> {
+    let all = 0..spec.types.len();
+    let own = |index: &usize| !spec.types[*index].shared;
+    let mut result = Vec::new();
+    for a in all.clone() {
+        let ty = &spec.types[a];
+        if own(&a) {
+            result.extend([Operation::Reverse(a), Operation::NormSq(a)]);
+            let grades = ty.grades();
+            if grades.len() > 1 {
+                result.extend(grades.into_iter().map(|grade| Operation::Grade(grade, a)));
+            }
+        }
+        result.extend([Operation::Dual(a), Operation::Undual(a)]);
+        for b in all.clone() {
+            // A full multivector meets only its like: anything else is converted first, so that the cost shows.
+            if spec.is_full(a) != spec.is_full(b) {
+                if spec.is_full(b) {
+                    result.push(Operation::Embed(a, b));
+                }
+                continue;
+            }
+            result.push(Operation::Meet(a, b));
+            if own(&a) || own(&b) {
+                let products = [Kind::Geometric, Kind::Outer, Kind::Contraction];
+                result.extend(products.map(|kind| Operation::Product(kind, a, b)));
+                if ty.versor {
+                    result.push(Operation::Apply(a, b));
+                }
+                if a != b && spec.types[b].is_linear() {
+                    result.push(Operation::Embed(a, b));
+                }
+            }
+        }
+    }
+    result.extend((0..spec.kernels.len()).map(Operation::Kernel));
+    result
+}
+
+/// Compiles an operation; `None` where it is identically zero, undefined, or no declared type holds its result.
+///
+/// # Errors
+/// A kernel that is wrong, or a unit type that cannot be sampled.
+pub fn compile(spec: &Spec, operation: Operation) -> syn::Result<Option<Item>> {
+    let (name, parameters) = describe(spec, operation);
+    let candidates: Vec<(Builder, Output, Vec<Scaled>)> = match operation {
+        Operation::Kernel(index) => {
+            let source = &spec.kernels[index];
+            let lowered = kernel::lower(spec, source, Sandwich::Plain)?;
+            vec![lowered]
+        }
+        Operation::Apply(v, x) => ways(spec, v, x)?
+            .into_iter()
+            .filter_map(|way| lower_simple(spec, operation, &parameters, way).transpose())
+            .collect::<syn::Result<_>>()?,
+        _ => lower_simple(spec, operation, &parameters, Sandwich::Plain)?.into_iter().collect(),
+    };
+    let programs = candidates.into_iter().map(|(builder, output, fields)| {
+        let names = field_names(spec, output);
+        let outputs: Vec<(String, Scaled)> = names.into_iter().zip(fields).collect();
+        (output, optimise(&builder, &outputs))
+    });
+    let best = programs.min_by_key(|(_, program)| (program.counts().div, program.counts().operations()));
+    Ok(best.map(|(output, program)| Item { operation, name, parameters, output, program }))
+}
+
+/// The coefficients of `a ~a` for a type that declares them to be those of 1, one output a blade.
+#[must_use]
+pub fn unit_defects(spec: &Spec, ty: usize) -> Program {
+    let mut lowering = Lowering::new(spec, Sandwich::Plain);
+    lowering.add_raw_parameter("a", ty);
+    let a = lowering.parameters[0].clone();
+    let product = lowering.product(Kind::Geometric, &a, &crate::lower::reversed(&a));
+    let outputs: Vec<(String, Scaled)> = product.into_iter().map(|(blade, value)| (spec.signature.name(blade), value)).collect();
+    optimise(&lowering.builder, &outputs)
+}
+
+/// The names of the fields of a result; a scalar has one without a name.
+#[must_use]
+pub fn field_names(spec: &Spec, output: Output) -> Vec<String> {
+    match output {
+        Output::Scalar => vec![String::new()],
+        Output::Type(index) => spec.types[index].fields.clone(),
+    }
+}
+
+fn describe(spec: &Spec, operation: Operation) -> (String, Vec<(String, usize)>) {
+    let name = |index: usize| spec.types[index].name.to_string();
+    let one = |a| vec![("a".to_string(), a)];
+    let two = |a, b| vec![("a".to_string(), a), ("b".to_string(), b)];
+    match operation {
+        Operation::Product(kind, a, b) => (format!("{}{}{}", name(a), symbol(kind), name(b)), two(a, b)),
+        Operation::Meet(a, b) => (format!("{}&{}", name(a), name(b)), two(a, b)),
+        Operation::Reverse(a) => (format!("{}.rev", name(a)), one(a)),
+        Operation::Dual(a) => (format!("{}.dual", name(a)), one(a)),
+        Operation::Undual(a) => (format!("{}.undual", name(a)), one(a)),
+        Operation::Grade(grade, a) => (format!("{}.grade{grade}", name(a)), one(a)),
+        Operation::NormSq(a) => (format!("{}.norm_sq", name(a)), one(a)),
+        Operation::Apply(v, x) => (format!("{}.apply({})", name(v), name(x)), two(v, x)),
+        Operation::Embed(a, b) => (format!("{}::from({})", name(b), name(a)), one(a)),
+        Operation::Kernel(index) => {
+            let source = &spec.kernels[index];
+            let parameters = source.parameters.iter();
+            let parameters = parameters.filter_map(|(name, ty)| Some((name.to_string(), spec.find(&ty.to_string())?)));
+            (source.name.to_string(), parameters.collect())
+        }
+    }
+}
+
+/// The operator of a product.
+#[must_use]
+pub fn symbol(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Geometric => "*",
+        Kind::Outer => "^",
+        Kind::Contraction => "|",
+    }
+}
+
+fn expression(operation: Operation) -> Expression {
+    let a = || Box::new(Expression::Input(0));
+    let b = || Box::new(Expression::Input(1));
+    match operation {
+        Operation::Product(kind, ..) => Expression::Product(kind, a(), b()),
+        Operation::Meet(..) => Expression::Meet(a(), b()),
+        Operation::Reverse(_) => Expression::Reverse(a()),
+        Operation::Dual(_) => Expression::Dual(a()),
+        Operation::Undual(_) => Expression::Undual(a()),
+        Operation::Grade(grade, _) => Expression::Grade(grade, a()),
+        Operation::Apply(..) => Expression::Sandwich(a(), b()),
+        Operation::NormSq(_) | Operation::Embed(..) | Operation::Kernel(_) => *a(),
+    }
+}
+
+/// The ways worth trying for a sandwich of two types.
+fn ways(spec: &Spec, v: usize, x: usize) -> syn::Result<Vec<Sandwich>> {
+    let count = |index: usize| spec.types[index].coefficients.len();
+    let mut ways = vec![Sandwich::Plain];
+    if may_expand(count(v), count(x)) {
+        ways.push(Sandwich::Expanded);
+    }
+    if is_isometry(spec, v)? {
+        ways.push(Sandwich::Commutator);
+    }
+    Ok(ways)
+}
+
+/// Does the versor keep every point at infinity, so that it neither scales nor inverts? Then `x + [v, x] ~v` adds no
+/// large number that it takes away again.
+fn is_isometry(spec: &Spec, v: usize) -> syn::Result<bool> {
+    let mut lowering = Lowering::new(spec, Sandwich::Plain);
+    lowering.add_parameter("a", v)?;
+    let versor = lowering.parameters[0].clone();
+    let pairs = spec.signature.kinds().iter().enumerate().filter(|(_, kind)| **kind == Metric::PairSecond);
+    let fixed: Vec<bool> = pairs
+        .map(|(index, _)| {
+            let infinity = Components::from([(crate::blade::Blade::vector(index), Scaled::ONE)]);
+            lowering.sandwich_by(Sandwich::Plain, &versor, &infinity) == infinity
+        })
+        .collect();
+    Ok(fixed.into_iter().all(|fixed| fixed))
+}
+
+/// Lowers everything but kernels.
+fn lower_simple(spec: &Spec, operation: Operation, parameters: &[(String, usize)], way: Sandwich) -> syn::Result<Option<kernel::Lowered>> {
+    let mut lowering = Lowering::new(spec, way);
+    if let Operation::NormSq(ty) = operation {
+        lowering.add_raw_parameter("a", ty);
+        let input = lowering.parameters[0].clone();
+        let value = lowering.norm_sq(&input);
+        let known = value.node.is_some();
+        return Ok(known.then(|| (lowering.builder, Output::Scalar, vec![value])));
+    }
+    for (name, ty) in parameters {
+        lowering.add_parameter(name, *ty)?;
+    }
+    let Some(components) = lowering.lower(&expression(operation)) else { return Ok(None) };
+    let result = match operation {
+        Operation::Embed(_, target) => infer::fit(spec, &mut lowering.builder, &components, target).map(|fields| (Output::Type(target), fields)),
+        Operation::Apply(_, x) => image(spec, &mut lowering, &components, x),
+        _ => {
+            let full = parameters.iter().all(|(_, ty)| spec.is_full(*ty));
+            infer::infer(spec, &mut lowering.builder, &components, full)
+        }
+    };
+    Ok(result.map(|(output, fields)| (lowering.builder, output, fields)))
+}
+
+/// The image of a type under a versor: of that type itself if it holds it, if need be after division by the weight.
+fn image(spec: &Spec, lowering: &mut Lowering<'_>, components: &Components, x: usize) -> Option<(Output, Vec<Scaled>)> {
+    if let Some(fields) = infer::fit(spec, &mut lowering.builder, components, x) {
+        return Some((Output::Type(x), fields));
+    }
+    if let Some(weight) = spec.types[x].weight()
+        && let Some(normalised) = kernel::divide_by_weight(lowering, components, weight)
+        && let Some(fields) = infer::fit(spec, &mut lowering.builder, &normalised, x)
+    {
+        return Some((Output::Type(x), fields));
+    }
+    infer::infer(spec, &mut lowering.builder, components, false)
+}

@@ -1,0 +1,269 @@
+//! From multivector expressions to scalar nodes, product by product.
+//!
+//! Stepwise lowering: the components of every intermediate multivector are made nodes in normal form, so equal minors
+//! of a wedge meet by themselves. A sandwich has several lowerings ([`Sandwich`]); the caller tries each and keeps the
+//! cheapest program.
+
+use crate::blade::Blade;
+use crate::expression::Expression;
+use crate::field::Fingerprint;
+use crate::product::{self, Kind, blade_product};
+use crate::program::{Builder, Scaled};
+use crate::scalar::Rational;
+use crate::signature::Terms;
+use crate::spec::{Spec, Type};
+use std::collections::BTreeMap;
+
+/// A multivector at lowering: the scalar in front of each blade that is present.
+pub type Components = BTreeMap<Blade, Scaled>;
+
+/// A way to compute `v x ~v`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sandwich {
+    /// `(v x) ~v`.
+    Plain,
+    /// `x + (v x - x v) ~v`, for unit versors without dilation only: there, x is added and cancelled.
+    Commutator,
+    /// All terms at once, for tiny versors, where terms cancel.
+    Expanded,
+}
+
+/// Expanding beyond this many triple products is refused.
+const EXPANSION_CAP: usize = 128;
+
+/// Lowers expressions over given parameters.
+pub struct Lowering<'a> {
+    spec: &'a Spec,
+    /// The graph that grows.
+    pub builder: Builder,
+    /// The components of each parameter.
+    pub parameters: Vec<Components>,
+    sandwich: Sandwich,
+    products: usize,
+}
+
+impl<'a> Lowering<'a> {
+    /// A lowering without parameters.
+    #[must_use]
+    pub fn new(spec: &'a Spec, sandwich: Sandwich) -> Self {
+        Self { spec, builder: Builder::default(), parameters: vec![], sandwich, products: 0 }
+    }
+
+    /// The next parameter: a value of a type, reachable by a name.
+    ///
+    /// # Errors
+    /// The type cannot be sampled.
+    pub fn add_parameter(&mut self, name: &str, ty: usize) -> syn::Result<()> {
+        let samples = self.spec.sample(ty, name)?;
+        self.add_sampled(name, ty, samples);
+        Ok(())
+    }
+
+    /// The next parameter, as if nothing but its stored numbers were known: for the norm of a unit type.
+    pub fn add_raw_parameter(&mut self, name: &str, ty: usize) {
+        let mut stream = crate::field::Stream::named(name);
+        let mut sample = || Fingerprint(std::array::from_fn(|_| stream.next_residue()));
+        let samples = self.spec.types[ty].fields.iter().map(|_| sample()).collect();
+        self.add_sampled(name, ty, samples);
+    }
+
+    fn add_sampled(&mut self, name: &str, ty: usize, samples: Vec<Fingerprint>) {
+        let ty = &self.spec.types[ty];
+        let fields: Vec<Scaled> =
+            ty.fields.iter().zip(samples).map(|(field, f)| self.builder.input(&format!("{name}.{field}"), f)).collect();
+        let components = self.of_type(ty, &fields, name);
+        self.parameters.push(components);
+    }
+
+    /// The components of a type with given fields.
+    pub fn of_type(&mut self, ty: &Type, fields: &[Scaled], hint: &str) -> Components {
+        let components = ty.coefficients.iter().map(|(blade, polynomial)| {
+            let products: Vec<_> = polynomial.terms().map(|(f, c)| (c, f.iter().map(|i| fields[*i]).collect())).collect();
+            (*blade, self.builder.sum(&products, &format!("{hint}_{}", self.spec.signature.name(*blade))))
+        });
+        components.collect()
+    }
+
+    /// Lowers an expression.
+    ///
+    /// `None` where the expression has no meaning: a dual without pseudoscalar, division by an identical zero.
+    pub fn lower(&mut self, expression: &Expression) -> Option<Components> {
+        Some(match expression {
+            Expression::Input(index) => self.parameters.get(*index)?.clone(),
+            Expression::Constant(terms) => terms.iter().map(|(b, c)| (*b, Scaled::constant(*c))).collect(),
+            Expression::Sum(parts) => {
+                let lowered: Option<Vec<_>> = parts.iter().map(|(c, part)| Some((*c, self.lower(part)?))).collect();
+                self.combine(&lowered?)
+            }
+            Expression::Product(kind, a, b) => {
+                let (a, b) = (self.lower(a)?, self.lower(b)?);
+                self.product(*kind, &a, &b)
+            }
+            Expression::Meet(a, b) => {
+                let (a, b) = (self.lower(a)?, self.lower(b)?);
+                let (a, b) = (self.dual(&a)?, self.dual(&b)?);
+                let outer = self.product(Kind::Outer, &a, &b);
+                self.undual(&outer)?
+            }
+            Expression::Reverse(a) => reversed(&self.lower(a)?),
+            Expression::Dual(a) => {
+                let a = self.lower(a)?;
+                self.dual(&a)?
+            }
+            Expression::Undual(a) => {
+                let a = self.lower(a)?;
+                self.undual(&a)?
+            }
+            Expression::Grade(grade, a) => {
+                self.lower(a)?.into_iter().filter(|(blade, _)| blade.grade() == *grade).collect()
+            }
+            Expression::Sandwich(v, x) => {
+                let (v, x) = (self.lower(v)?, self.lower(x)?);
+                self.sandwich(&v, &x)
+            }
+            Expression::Normalised(a) => {
+                let a = self.lower(a)?;
+                self.unit(&a)?
+            }
+        })
+    }
+
+    fn hint(&mut self) -> String {
+        const LETTERS: [&str; 6] = ["t", "u", "v", "w", "p", "q"];
+        let (round, letter) = (self.products / LETTERS.len(), LETTERS[self.products % LETTERS.len()]);
+        self.products += 1;
+        if round == 0 { letter.into() } else { format!("{letter}{round}") }
+    }
+
+    /// Collects weighted products of scalars into components in normal form.
+    fn collect(&mut self, terms: Vec<(Blade, Rational, Vec<Scaled>)>) -> Components {
+        let hint = self.hint();
+        let mut sums: BTreeMap<Blade, Vec<(Rational, Vec<Scaled>)>> = BTreeMap::new();
+        for (blade, coefficient, scalars) in terms {
+            sums.entry(blade).or_default().push((coefficient, scalars));
+        }
+        let mut components = Components::new();
+        for (blade, products) in sums {
+            let value = self.builder.sum(&products, &format!("{hint}_{}", self.spec.signature.name(blade)));
+            if !value.is_zero() {
+                components.insert(blade, value);
+            }
+        }
+        components
+    }
+
+    fn terms(&self, kind: Kind, a: &Components, b: &Components, sign: Rational) -> Vec<(Blade, Rational, Vec<Scaled>)> {
+        let pairs = a.iter().flat_map(|x| b.iter().map(move |y| (x, y)));
+        pairs
+            .flat_map(|((blade_a, x), (blade_b, y))| {
+                let terms = blade_product(&self.spec.signature, kind, *blade_a, *blade_b);
+                terms.into_iter().map(move |(blade, c)| (blade, c * sign, vec![*x, *y]))
+            })
+            .collect()
+    }
+
+    /// A bilinear product.
+    pub fn product(&mut self, kind: Kind, a: &Components, b: &Components) -> Components {
+        let terms = self.terms(kind, a, b, Rational::ONE);
+        self.collect(terms)
+    }
+
+    /// A linear combination.
+    pub fn combine(&mut self, parts: &[(Rational, Components)]) -> Components {
+        let terms = parts.iter().flat_map(|(c, part)| part.iter().map(|(blade, x)| (*blade, *c, vec![*x])));
+        self.collect(terms.collect())
+    }
+
+    fn map_blades(&mut self, a: &Components, f: impl Fn(Blade) -> Terms) -> Components {
+        let terms = a.iter().flat_map(|(blade, x)| f(*blade).into_iter().map(|(image, c)| (image, c, vec![*x])));
+        self.collect(terms.collect())
+    }
+
+    fn dual(&mut self, a: &Components) -> Option<Components> {
+        let pseudoscalar = self.metric_pseudoscalar()?;
+        let signature = &self.spec.signature;
+        Some(self.map_blades(a, |blade| pseudoscalar.dual(signature, blade)))
+    }
+
+    fn undual(&mut self, a: &Components) -> Option<Components> {
+        let pseudoscalar = self.metric_pseudoscalar()?;
+        let signature = &self.spec.signature;
+        Some(self.map_blades(a, |blade| pseudoscalar.undual(signature, blade)))
+    }
+
+    fn metric_pseudoscalar(&self) -> Option<product::Pseudoscalar> {
+        self.spec.pseudoscalar.filter(|i| !i.square.is_zero())
+    }
+
+    fn sandwich(&mut self, v: &Components, x: &Components) -> Components {
+        self.sandwich_by(self.sandwich, v, x)
+    }
+
+    /// `v x ~v`, restricted to the grades of x, computed in a given way.
+    pub fn sandwich_by(&mut self, way: Sandwich, v: &Components, x: &Components) -> Components {
+        let reverse = reversed(v);
+        let mut result = match way {
+            Sandwich::Plain => {
+                let half = self.product(Kind::Geometric, v, x);
+                self.product(Kind::Geometric, &half, &reverse)
+            }
+            Sandwich::Commutator => {
+                let mut terms = self.terms(Kind::Geometric, v, x, Rational::ONE);
+                terms.extend(self.terms(Kind::Geometric, x, v, -Rational::ONE));
+                let commutator = self.collect(terms);
+                let mut terms = self.terms(Kind::Geometric, &commutator, &reverse, Rational::ONE);
+                terms.extend(x.iter().map(|(blade, value)| (*blade, Rational::ONE, vec![*value])));
+                terms.retain(|(blade, ..)| x.keys().any(|known| known.grade() == blade.grade()));
+                self.collect(terms)
+            }
+            Sandwich::Expanded => {
+                let half = self.terms(Kind::Geometric, v, x, Rational::ONE);
+                let mut terms = Vec::new();
+                for (blade_a, c, scalars) in half {
+                    for (blade_b, y) in &reverse {
+                        for (blade, d) in self.spec.signature.geometric(blade_a, *blade_b) {
+                            terms.push((blade, c * d, [&scalars[..], &[*y]].concat()));
+                        }
+                    }
+                }
+                self.collect(terms)
+            }
+        };
+        result.retain(|blade, _| x.keys().any(|known| known.grade() == blade.grade()));
+        result
+    }
+
+    /// `a / sqrt(|<a ~a>|)`. The sign of `a ~a` is that of the first blade with a square, which is right for blades
+    /// whose other terms are null or of the same sign.
+    fn unit(&mut self, a: &Components) -> Option<Components> {
+        let square = self.norm_sq(a);
+        let root = self.builder.sqrt(square, "norm");
+        let inverse = self.builder.quotient(Rational::ONE, root, "inv_norm")?;
+        Some(self.scaled(a, inverse))
+    }
+
+    /// `<a ~a>_0`.
+    pub fn norm_sq(&mut self, a: &Components) -> Scaled {
+        let product = self.product(Kind::Geometric, a, &reversed(a));
+        product.get(&Blade::SCALAR).copied().unwrap_or(Scaled::ZERO)
+    }
+
+    /// Every component times one scalar.
+    pub fn scaled(&mut self, a: &Components, factor: Scaled) -> Components {
+        let terms = a.iter().map(|(blade, x)| (*blade, Rational::ONE, vec![*x, factor]));
+        self.collect(terms.collect())
+    }
+}
+
+/// Whether expanding `v x ~v` at once stays small.
+#[must_use]
+pub fn may_expand(v: usize, x: usize) -> bool {
+    v * v * x <= EXPANSION_CAP
+}
+
+/// The reverse.
+#[must_use]
+pub fn reversed(a: &Components) -> Components {
+    let sign = |blade: Blade| if blade.reverse_is_negative() { -Rational::ONE } else { Rational::ONE };
+    a.iter().map(|(blade, value)| (*blade, value.scaled(sign(*blade)))).collect()
+}

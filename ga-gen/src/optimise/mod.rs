@@ -1,0 +1,135 @@
+//! From the graph in normal form to the program that is emitted.
+//!
+//! The passes, in order: dead code is left behind; complete squares are put together ([`squares`]); a step that is used
+//! once is inlined where that costs nothing ([`flatten`]); equal constant factors within a sum are pulled into one
+//! ([`scale`]). Each preserves the value exactly as a rational function; none touches a difference of squares.
+
+mod flatten;
+mod scale;
+mod squares;
+
+use crate::program::{Builder, Node, NodeId, Product, Program, Scaled, Step, Term, Value};
+use std::collections::BTreeMap;
+
+/// A node of the working graph: its name and what it is.
+#[derive(Clone, Debug)]
+struct Work {
+    hint: String,
+    node: Node,
+}
+
+/// The working graph: nodes by id, and the outputs.
+#[derive(Clone, Debug)]
+struct Graph {
+    nodes: Vec<Work>,
+    outputs: Vec<(String, Vec<Term>)>,
+}
+
+impl Graph {
+    /// How often each node is used, counting only what the outputs need.
+    fn uses(&self) -> Vec<usize> {
+        let mut uses = vec![0; self.nodes.len()];
+        let mut pending: Vec<NodeId> = Vec::new();
+        for (_, terms) in &self.outputs {
+            pending.extend(terms.iter().flat_map(|term| term.factors.iter().copied()));
+        }
+        while let Some(id) = pending.pop() {
+            uses[id] += 1;
+            if uses[id] == 1 {
+                pending.extend(operands(&self.nodes[id].node));
+            }
+        }
+        uses
+    }
+}
+
+fn operands(node: &Node) -> Vec<NodeId> {
+    match node {
+        Node::Input(_) => vec![],
+        Node::Sum(terms) => terms.iter().flat_map(|term| term.factors.iter().copied()).collect(),
+        Node::Quotient(_, id) | Node::Sqrt(id) => vec![*id],
+    }
+}
+
+/// Turns the parts of a graph that the outputs need into a program.
+#[must_use]
+pub fn optimise(builder: &Builder, outputs: &[(String, Scaled)]) -> Program {
+    let nodes = builder.entries().iter().map(|e| Work { hint: e.hint.clone(), node: e.node.clone() }).collect();
+    let outputs = outputs
+        .iter()
+        .map(|(name, value)| {
+            let term = Term { coefficient: value.coefficient, factors: value.node.into_iter().collect() };
+            (name.clone(), vec![term])
+        })
+        .collect();
+    let mut graph = Graph { nodes, outputs };
+    squares::complete_squares(&mut graph);
+    flatten::flatten(&mut graph);
+    scale::pull_scales(&mut graph);
+    flatten::flatten(&mut graph);
+    schedule(&graph)
+}
+
+/// Names the steps and lists them in dependency order.
+fn schedule(graph: &Graph) -> Program {
+    let mut scheduler = Scheduler { graph, names: BTreeMap::new(), taken: BTreeMap::new(), program: Program::default() };
+    for (name, terms) in &graph.outputs {
+        let value = Value::Sum(scheduler.products(terms));
+        scheduler.program.outputs.push(Step { name: name.clone(), value });
+    }
+    scheduler.program
+}
+
+struct Scheduler<'a> {
+    graph: &'a Graph,
+    names: BTreeMap<NodeId, String>,
+    taken: BTreeMap<String, usize>,
+    program: Program,
+}
+
+impl Scheduler<'_> {
+    fn name(&mut self, id: NodeId) -> String {
+        if let Some(name) = self.names.get(&id) {
+            return name.clone();
+        }
+        let Work { hint, node } = &self.graph.nodes[id];
+        let name = match node {
+            Node::Input(path) => path.clone(),
+            Node::Sum(terms) => {
+                let value = Value::Sum(self.products(terms));
+                self.push(hint, value)
+            }
+            Node::Quotient(numerator, denominator) => {
+                let value = Value::Quotient(*numerator, self.name(*denominator));
+                self.push(hint, value)
+            }
+            Node::Sqrt(radicand) => {
+                let value = Value::Sqrt(self.name(*radicand));
+                self.push(hint, value)
+            }
+        };
+        self.names.insert(id, name.clone());
+        name
+    }
+
+    fn push(&mut self, hint: &str, value: Value) -> String {
+        let count = self.taken.entry(hint.to_string()).or_insert(0);
+        *count += 1;
+        let name = if *count == 1 { hint.to_string() } else { format!("{hint}_{count}") };
+        self.program.steps.push(Step { name: name.clone(), value });
+        name
+    }
+
+    fn products(&mut self, terms: &[Term]) -> Vec<Product> {
+        let mut products: Vec<Product> = terms
+            .iter()
+            .map(|term| Product {
+                coefficient: term.coefficient,
+                factors: term.factors.iter().map(|id| self.name(*id)).collect(),
+            })
+            .collect();
+        // Positive terms first: then no leading minus is left unless all terms are negative.
+        products.sort_by_key(|product| product.coefficient.is_negative());
+        products
+    }
+}

@@ -1,0 +1,261 @@
+//! The grammar of `algebra!`, token by token; nothing is checked for sense here.
+//!
+//! ```text
+//! pub algebra cga extends super::g3;
+//! basis e1 = 1, e2 = 1, e3 = 1;                    // squares +1, -1 or 0
+//! basis null pair (no, ninf) = -1;                 // no.no = ninf.ninf = 0, no.ninf = -1
+//! pseudoscalar -e123_no_ninf;
+//! type Rotor: unit + versor = [s, e23, e31, e12];  // stored coefficients, fields named by their blades
+//! type Translator: unit + versor = [s = 1, e1_ninf, e2_ninf, e3_ninf];   // with a constant one
+//! type Point = x*e1 + y*e2 + z*e3 + no + (x*x + y*y + z*z)/2*ninf;   // stored, constant and derived
+//! fn sphere(a: Point, b: Point, c: Point, d: Point) -> Sphere, local a { (a ^ b ^ c ^ d).dual().normalised() }
+//! ```
+
+use proc_macro2::TokenStream;
+use syn::parse::{Parse, ParseStream};
+use syn::punctuated::Punctuated;
+use syn::{Attribute, Expr, Ident, Token, Visibility};
+
+mod keyword {
+    syn::custom_keyword!(algebra);
+    syn::custom_keyword!(extends);
+    syn::custom_keyword!(basis);
+    syn::custom_keyword!(null);
+    syn::custom_keyword!(pair);
+    syn::custom_keyword!(pseudoscalar);
+    syn::custom_keyword!(local);
+    syn::custom_keyword!(relative);
+}
+
+/// One `algebra!` invocation.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// Visibility of the generated types.
+    pub visibility: Visibility,
+    /// The algebra's name.
+    pub name: Ident,
+    /// The module of the algebra that it extends.
+    pub extends: Option<syn::Path>,
+    /// Basis vectors in declared order.
+    pub basis: Vec<Basis>,
+    /// The pseudoscalar: is there a minus, and the blade.
+    pub pseudoscalar: Option<(bool, Ident)>,
+    /// Named types.
+    pub types: Vec<TypeSource>,
+    /// Named formulas.
+    pub kernels: Vec<KernelSource>,
+}
+
+/// Declared basis vectors.
+#[derive(Clone, Debug)]
+pub enum Basis {
+    /// `e1 = 1`
+    Vector(Ident, i8),
+    /// `null pair (no, ninf) = -1`
+    Pair(Ident, Ident, i8),
+}
+
+/// `type NAME: FACTS = BODY;`
+#[derive(Clone, Debug)]
+pub struct TypeSource {
+    /// Doc comments.
+    pub docs: Vec<Attribute>,
+    /// The name.
+    pub name: Ident,
+    /// `unit`, `versor`.
+    pub facts: Vec<Ident>,
+    /// The coefficients.
+    pub body: TypeBody,
+}
+
+/// The coefficients of a type.
+#[derive(Clone, Debug)]
+pub enum TypeBody {
+    /// `[s = 1, e23, e31, e12]`: stored coefficients, or constant ones.
+    Stored(Vec<(Ident, Option<syn::Lit>)>),
+    /// `x*e1 + no + ...`
+    Sum(Expr),
+}
+
+/// In which frame a kernel is evaluated.
+#[derive(Clone, Debug)]
+pub enum Frame {
+    /// As written.
+    World,
+    /// With this parameter as origin; the result is moved back.
+    Local(Ident),
+    /// With this parameter as origin; the result stays relative to it.
+    Relative(Ident),
+}
+
+/// `fn name(a: Point, ...) -> Sphere, local a { expression }`
+#[derive(Clone, Debug)]
+pub struct KernelSource {
+    /// Doc comments.
+    pub docs: Vec<Attribute>,
+    /// The name.
+    pub name: Ident,
+    /// Parameters and their types.
+    pub parameters: Vec<(Ident, Ident)>,
+    /// The type of the result.
+    pub output: Ident,
+    /// The frame.
+    pub frame: Frame,
+    /// The body.
+    pub body: Expr,
+}
+
+/// What a base algebra's specification macro hands back.
+pub struct WithBase {
+    /// The base algebra.
+    pub base: Source,
+    /// The algebra that extends it.
+    pub own: Source,
+    /// The tokens of `own`.
+    pub own_tokens: TokenStream,
+}
+
+impl Parse for WithBase {
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        let content;
+        syn::braced!(content in input);
+        let base = content.parse()?;
+        let own_tokens: TokenStream = input.parse()?;
+        Ok(Self { base, own: syn::parse2(own_tokens.clone())?, own_tokens })
+    }
+}
+
+impl Parse for Source {
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        let visibility = input.parse()?;
+        input.parse::<keyword::algebra>()?;
+        let name = input.parse()?;
+        let mut extends = None;
+        if input.parse::<Option<keyword::extends>>()?.is_some() {
+            extends = Some(syn::Path::parse_mod_style(input)?);
+        }
+        input.parse::<Token![;]>()?;
+        let mut source =
+            Self { visibility, name, extends, basis: vec![], pseudoscalar: None, types: vec![], kernels: vec![] };
+        while !input.is_empty() {
+            source.parse_item(input)?;
+        }
+        Ok(source)
+    }
+}
+
+impl Source {
+    fn parse_item(&mut self, input: ParseStream) -> syn::Result<()> {
+        let docs = input.call(Attribute::parse_outer)?;
+        let lookahead = input.lookahead1();
+        if lookahead.peek(keyword::basis) {
+            input.parse::<keyword::basis>()?;
+            self.basis.extend(Punctuated::<Basis, Token![,]>::parse_separated_nonempty(input)?);
+            input.parse::<Token![;]>()?;
+        } else if lookahead.peek(keyword::pseudoscalar) {
+            input.parse::<keyword::pseudoscalar>()?;
+            let negative = input.parse::<Option<Token![-]>>()?.is_some();
+            self.pseudoscalar = Some((negative, input.parse()?));
+            input.parse::<Token![;]>()?;
+        } else if lookahead.peek(Token![type]) {
+            self.types.push(TypeSource::parse(docs, input)?);
+        } else if lookahead.peek(Token![fn]) {
+            self.kernels.push(KernelSource::parse(docs, input)?);
+        } else {
+            return Err(lookahead.error());
+        }
+        Ok(())
+    }
+}
+
+fn parse_square(input: ParseStream) -> syn::Result<i8> {
+    let negative = input.parse::<Option<Token![-]>>()?.is_some();
+    let literal: syn::LitInt = input.parse()?;
+    match literal.base10_parse::<i8>()? {
+        value @ (0 | 1) => Ok(if negative { -value } else { value }),
+        _ => Err(syn::Error::new(literal.span(), "a basis vector squares to 1, -1 or 0; scale it until it does")),
+    }
+}
+
+impl Parse for Basis {
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        if input.parse::<Option<keyword::null>>()?.is_none() {
+            let name = input.parse()?;
+            input.parse::<Token![=]>()?;
+            return Ok(Self::Vector(name, parse_square(input)?));
+        }
+        input.parse::<keyword::pair>()?;
+        let names;
+        syn::parenthesized!(names in input);
+        let first: Ident = names.parse()?;
+        names.parse::<Token![,]>()?;
+        let second = names.parse()?;
+        input.parse::<Token![=]>()?;
+        match parse_square(input)? {
+            0 => Err(syn::Error::new(first.span(), "a null pair has inner product 1 or -1; with 0 these are two vectors of square 0")),
+            inner => Ok(Self::Pair(first, second, inner)),
+        }
+    }
+}
+
+impl TypeSource {
+    fn parse(docs: Vec<Attribute>, input: ParseStream) -> syn::Result<Self> {
+        input.parse::<Token![type]>()?;
+        let name = input.parse()?;
+        let mut facts = Vec::new();
+        if input.parse::<Option<Token![:]>>()?.is_some() {
+            facts.extend(Punctuated::<Ident, Token![+]>::parse_separated_nonempty(input)?);
+        }
+        input.parse::<Token![=]>()?;
+        let body = if input.peek(syn::token::Bracket) {
+            let blades;
+            syn::bracketed!(blades in input);
+            let mut stored = Vec::new();
+            while !blades.is_empty() {
+                let blade = blades.parse()?;
+                let constant = if blades.parse::<Option<Token![=]>>()?.is_some() { Some(blades.parse()?) } else { None };
+                stored.push((blade, constant));
+                if !blades.is_empty() {
+                    blades.parse::<Token![,]>()?;
+                }
+            }
+            TypeBody::Stored(stored)
+        } else {
+            TypeBody::Sum(input.parse()?)
+        };
+        input.parse::<Token![;]>()?;
+        Ok(Self { docs, name, facts, body })
+    }
+}
+
+impl KernelSource {
+    fn parse(docs: Vec<Attribute>, input: ParseStream) -> syn::Result<Self> {
+        input.parse::<Token![fn]>()?;
+        let name = input.parse()?;
+        let list;
+        syn::parenthesized!(list in input);
+        let mut parameters = Vec::new();
+        while !list.is_empty() {
+            let parameter = list.parse()?;
+            list.parse::<Token![:]>()?;
+            parameters.push((parameter, list.parse()?));
+            if !list.is_empty() {
+                list.parse::<Token![,]>()?;
+            }
+        }
+        input.parse::<Token![->]>()?;
+        let output = input.parse()?;
+        let mut frame = Frame::World;
+        if input.parse::<Option<Token![,]>>()?.is_some() {
+            frame = if input.parse::<Option<keyword::local>>()?.is_some() {
+                Frame::Local(input.parse()?)
+            } else {
+                input.parse::<keyword::relative>()?;
+                Frame::Relative(input.parse()?)
+            };
+        }
+        let body;
+        syn::braced!(body in input);
+        Ok(Self { docs, name, parameters, output, frame, body: body.parse()? })
+    }
+}

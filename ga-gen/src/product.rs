@@ -1,0 +1,71 @@
+//! The three products and the unary operations on multivectors of the generator, on bare blades: what survives, and
+//! with which factor. Everything that multiplies multivectors in this crate goes through [`blade_product`].
+
+use crate::blade::Blade;
+use crate::scalar::Rational;
+use crate::signature::{Signature, Terms};
+
+/// A bilinear product.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Kind {
+    /// `a b`, operator `*`.
+    Geometric,
+    /// `a ^ b`: the part of grade `r + s`.
+    Outer,
+    /// `a | b`, left contraction: the part of grade `s - r`.
+    Contraction,
+}
+
+/// The product of two basis blades.
+#[must_use]
+pub fn blade_product(signature: &Signature, kind: Kind, a: Blade, b: Blade) -> Terms {
+    let wanted = match kind {
+        Kind::Geometric => None,
+        Kind::Outer => Some(a.grade() + b.grade()),
+        Kind::Contraction if a.grade() > b.grade() => return vec![],
+        Kind::Contraction => Some(b.grade() - a.grade()),
+    };
+    let mut terms = signature.geometric(a, b);
+    terms.retain(|(blade, _)| wanted.is_none_or(|grade| blade.grade() == grade));
+    terms
+}
+
+/// `I`, as a basis blade of highest grade with its sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pseudoscalar {
+    /// The blade.
+    pub blade: Blade,
+    /// The sign.
+    pub sign: Rational,
+    /// `I^2`: 0 where the metric is degenerate, and then there is no dual.
+    pub square: Rational,
+}
+
+impl Pseudoscalar {
+    /// The pseudoscalar `sign * (all basis vectors)`.
+    #[must_use]
+    pub fn new(signature: &Signature, sign: Rational) -> Self {
+        let blade = Blade((1 << signature.dimension()) - 1);
+        let square = signature.geometric(blade, blade);
+        let square = square.iter().find(|(b, _)| *b == Blade::SCALAR).map_or(Rational::ZERO, |(_, c)| *c);
+        Self { blade, sign, square }
+    }
+
+    /// `dual(b) = I b`.
+    #[must_use]
+    pub fn dual(self, signature: &Signature, b: Blade) -> Terms {
+        scaled(signature.geometric(self.blade, b), self.sign)
+    }
+
+    /// `undual(b) = I^-1 b`, the inverse of [`Self::dual`].
+    #[must_use]
+    pub fn undual(self, signature: &Signature, b: Blade) -> Terms {
+        let inverse = (self.sign * self.square).recip().unwrap_or(Rational::ZERO);
+        scaled(signature.geometric(self.blade, b), inverse)
+    }
+}
+
+fn scaled(mut terms: Terms, factor: Rational) -> Terms {
+    terms.iter_mut().for_each(|(_, c)| *c = *c * factor);
+    terms
+}
