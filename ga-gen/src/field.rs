@@ -160,7 +160,10 @@ impl Stream {
     #[must_use]
     pub fn named(name: &str) -> Self {
         // FNV-1a: any fixed hash does; it must not change from run to run, as the standard one may.
-        Self(name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)))
+        Self(
+            name.bytes()
+                .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)),
+        )
     }
 
     /// The next residue.

@@ -56,7 +56,8 @@ fn product_text(product: &Product) -> String {
 /// `16 mul, 12 add`
 #[must_use]
 pub fn counts_text(counts: Counts) -> String {
-    let named = [("mul", counts.mul), ("add", counts.add), ("neg", counts.neg), ("div", counts.div), ("sqrt", counts.sqrt)];
+    let named =
+        [("mul", counts.mul), ("add", counts.add), ("neg", counts.neg), ("div", counts.div), ("sqrt", counts.sqrt)];
     let parts: Vec<String> = named.iter().filter(|(_, n)| *n > 0).map(|(name, n)| format!("{n} {name}")).collect();
     if parts.is_empty() { "none".into() } else { parts.join(", ") }
 }

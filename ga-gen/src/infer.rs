@@ -24,7 +24,12 @@ pub enum Output {
 
 /// The smallest type that holds the components, with its fields; ties go to the first declared.
 #[must_use]
-pub fn infer(spec: &Spec, builder: &mut Builder, components: &Components, full_allowed: bool) -> Option<(Output, Vec<Scaled>)> {
+pub fn infer(
+    spec: &Spec,
+    builder: &mut Builder,
+    components: &Components,
+    full_allowed: bool,
+) -> Option<(Output, Vec<Scaled>)> {
     if components.is_empty() {
         return None;
     }

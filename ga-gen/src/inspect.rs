@@ -36,7 +36,11 @@ impl std::fmt::Display for InspectError {
             Self::NoAlgebra(path) => write!(f, "{} holds no `algebra!` invocation", path.display()),
             Self::NoBase(name, files) => {
                 let files: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
-                write!(f, "the base algebra `{name}` is in none of {}; name its file with --algebra FILE", files.join(", "))
+                write!(
+                    f,
+                    "the base algebra `{name}` is in none of {}; name its file with --algebra FILE",
+                    files.join(", ")
+                )
             }
             Self::NoItem(name, close) => {
                 write!(f, "no item `{name}`")?;
@@ -60,11 +64,14 @@ pub fn load(file: &Path, base_file: Option<&Path>) -> Result<Spec, InspectError>
     let sources = algebras(file)?;
     let source = sources.last().ok_or_else(|| InspectError::NoAlgebra(file.into()))?;
     let fault = |error| InspectError::Syntax(file.into(), error);
-    let Some(path) = &source.extends else { return Spec::new(source, None).map_err(fault) };
+    let Some(path) = &source.extends else {
+        return Spec::new(source, None).map_err(fault);
+    };
     let name = path.segments.last().map(|segment| segment.ident.to_string()).unwrap_or_default();
     let sibling = file.with_file_name(format!("{name}.rs"));
     let mut tried = Vec::new();
-    for candidate in [Some(file), Some(sibling.as_path()), base_file].into_iter().flatten().filter(|path| path.exists()) {
+    for candidate in [Some(file), Some(sibling.as_path()), base_file].into_iter().flatten().filter(|path| path.exists())
+    {
         if let Some(base) = algebras(candidate)?.iter().find(|source| source.name == name) {
             let base = Spec::new(base, None).map_err(|error| InspectError::Syntax(candidate.into(), error))?;
             return Spec::new(source, Some(&base)).map_err(fault);
@@ -86,7 +93,9 @@ fn algebras(file: &Path) -> Result<Vec<Source>, InspectError> {
 fn collect(items: &[syn::Item], found: &mut Vec<Source>) -> syn::Result<()> {
     for item in items {
         match item {
-            syn::Item::Macro(invocation) if invocation.mac.path.segments.last().is_some_and(|s| s.ident == "algebra") => {
+            syn::Item::Macro(invocation)
+                if invocation.mac.path.segments.last().is_some_and(|s| s.ident == "algebra") =>
+            {
                 found.push(invocation.mac.parse_body()?);
             }
             syn::Item::Mod(module) => {
@@ -113,7 +122,8 @@ pub fn items(spec: &Spec) -> syn::Result<Vec<Item>> {
 /// # Errors
 /// A kernel that is wrong.
 pub fn overview(spec: &Spec) -> syn::Result<String> {
-    let mut text = format!("algebra {}\n\nproducts of basis vectors (row * column)\n\n{}\ntypes\n\n", spec.name, cayley(spec));
+    let mut text =
+        format!("algebra {}\n\nproducts of basis vectors (row * column)\n\n{}\ntypes\n\n", spec.name, cayley(spec));
     for ty in &spec.types {
         let origin = if ty.shared { "  (of the base algebra)" } else { "" };
         let fields = ty.fields.join(", ");
@@ -125,7 +135,13 @@ pub fn overview(spec: &Spec) -> syn::Result<String> {
         let _ = writeln!(
             text,
             "  {:<28} {:<13} {:>4} {:>4} {:>3} {:>2} {:>2}",
-            item.name, output_name(spec, item.output), counts.mul, counts.add, counts.neg, counts.div, counts.sqrt
+            item.name,
+            output_name(spec, item.output),
+            counts.mul,
+            counts.add,
+            counts.neg,
+            counts.div,
+            counts.sqrt
         );
     }
     Ok(text)

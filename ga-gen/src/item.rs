@@ -125,7 +125,8 @@ pub fn unit_defects(spec: &Spec, ty: usize) -> Program {
     lowering.add_raw_parameter("a", ty);
     let a = lowering.parameters[0].clone();
     let product = lowering.product(Kind::Geometric, &a, &crate::lower::reversed(&a));
-    let outputs: Vec<(String, Scaled)> = product.into_iter().map(|(blade, value)| (spec.signature.name(blade), value)).collect();
+    let outputs: Vec<(String, Scaled)> =
+        product.into_iter().map(|(blade, value)| (spec.signature.name(blade), value)).collect();
     optimise(&lowering.builder, &outputs)
 }
 
@@ -216,7 +217,12 @@ fn is_isometry(spec: &Spec, v: usize) -> syn::Result<bool> {
 }
 
 /// Lowers everything but kernels.
-fn lower_simple(spec: &Spec, operation: Operation, parameters: &[(String, usize)], way: Sandwich) -> syn::Result<Option<kernel::Lowered>> {
+fn lower_simple(
+    spec: &Spec,
+    operation: Operation,
+    parameters: &[(String, usize)],
+    way: Sandwich,
+) -> syn::Result<Option<kernel::Lowered>> {
     let mut lowering = Lowering::new(spec, way);
     if let Operation::NormSq(ty) = operation {
         lowering.add_raw_parameter("a", ty);
@@ -228,9 +234,13 @@ fn lower_simple(spec: &Spec, operation: Operation, parameters: &[(String, usize)
     for (name, ty) in parameters {
         lowering.add_parameter(name, *ty)?;
     }
-    let Some(components) = lowering.lower(&expression(operation)) else { return Ok(None) };
+    let Some(components) = lowering.lower(&expression(operation)) else {
+        return Ok(None);
+    };
     let result = match operation {
-        Operation::Embed(_, target) => infer::fit(spec, &mut lowering.builder, &components, target).map(|fields| (Output::Type(target), fields)),
+        Operation::Embed(_, target) => {
+            infer::fit(spec, &mut lowering.builder, &components, target).map(|fields| (Output::Type(target), fields))
+        }
         Operation::Apply(_, x) => image(spec, &mut lowering, &components, x),
         _ => {
             let full = parameters.iter().all(|(_, ty)| spec.is_full(*ty));

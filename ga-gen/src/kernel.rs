@@ -58,9 +58,15 @@ pub fn lower(spec: &Spec, source: &KernelSource, way: Sandwich) -> syn::Result<L
         return Err(fault("the result is identically zero"));
     }
     if let (true, Some(weight)) = (normalised, weight) {
-        components = divide_by_weight(&mut lowering, &components, weight).ok_or_else(|| fault("the weight of the result is identically zero"))?;
+        components = divide_by_weight(&mut lowering, &components, weight)
+            .ok_or_else(|| fault("the weight of the result is identically zero"))?;
     }
-    let misfit = || Error::new(source.output.span(), format!("`{}` does not hold the result: {}", source.output, describe(spec, &components)));
+    let misfit = || {
+        Error::new(
+            source.output.span(),
+            format!("`{}` does not hold the result: {}", source.output, describe(spec, &components)),
+        )
+    };
     let mut fields = infer::fit(spec, &mut lowering.builder, &components, index).ok_or_else(misfit)?;
     if let (Frame::Local(_), Some(translator)) = (&source.frame, translator) {
         let local = lowering.of_type(&spec.types[index], &fields, "local");
@@ -77,13 +83,18 @@ fn describe(spec: &Spec, components: &Components) -> String {
 
 fn find_type(spec: &Spec, name: &Ident) -> syn::Result<usize> {
     let known: Vec<String> = spec.types.iter().map(|ty| ty.name.to_string()).collect();
-    spec.find(&name.to_string())
-        .ok_or_else(|| Error::new(name.span(), format!("no type `{name}` in this algebra; there are {}", known.join(", "))))
+    spec.find(&name.to_string()).ok_or_else(|| {
+        Error::new(name.span(), format!("no type `{name}` in this algebra; there are {}", known.join(", ")))
+    })
 }
 
 /// Divides by the coefficient that the type fixes. One division: the reciprocal carries the factor that most stored
 /// coefficients share.
-pub fn divide_by_weight(lowering: &mut Lowering<'_>, components: &Components, weight: (Blade, Rational)) -> Option<Components> {
+pub fn divide_by_weight(
+    lowering: &mut Lowering<'_>,
+    components: &Components,
+    weight: (Blade, Rational),
+) -> Option<Components> {
     let (blade, constant) = weight;
     let weight = components.get(&blade)?.scaled(constant.recip()?);
     let inverse = weight.coefficient.recip()?;
@@ -98,7 +109,12 @@ pub fn divide_by_weight(lowering: &mut Lowering<'_>, components: &Components, we
 }
 
 /// Moves every parameter into the frame; returns the translator that leads back.
-fn enter_frame(lowering: &mut Lowering<'_>, spec: &Spec, source: &KernelSource, types: &[usize]) -> syn::Result<Option<Components>> {
+fn enter_frame(
+    lowering: &mut Lowering<'_>,
+    spec: &Spec,
+    source: &KernelSource,
+    types: &[usize],
+) -> syn::Result<Option<Components>> {
     let origin = match &source.frame {
         Frame::World => return Ok(None),
         Frame::Local(name) | Frame::Relative(name) => name,
@@ -107,11 +123,13 @@ fn enter_frame(lowering: &mut Lowering<'_>, spec: &Spec, source: &KernelSource, 
     let position = position.ok_or_else(|| Error::new(origin.span(), format!("no parameter `{origin}`")))?;
     let kinds = spec.signature.kinds();
     let infinity = kinds.iter().position(|kind| *kind == Metric::PairFirst(-1)).map(|first| Blade::vector(first + 1));
-    let infinity = infinity.ok_or_else(|| Error::new(origin.span(), "a local frame needs a null pair with inner product -1"))?;
+    let infinity =
+        infinity.ok_or_else(|| Error::new(origin.span(), "a local frame needs a null pair with inner product -1"))?;
     // T = 1 - p ninf / 2, with p the Euclidean part of the (normalised) point.
     let mut translator = Components::from([(Blade::SCALAR, Scaled::ONE)]);
     for (blade, value) in lowering.parameters[position].clone() {
-        let euclidean = blade.grade() == 1 && kinds.iter().enumerate().any(|(i, kind)| Blade::vector(i) == blade && matches!(kind, Metric::Square(_)));
+        let euclidean = blade.grade() == 1
+            && kinds.iter().enumerate().any(|(i, kind)| Blade::vector(i) == blade && matches!(kind, Metric::Square(_)));
         if euclidean {
             let half = Rational::new(-1, 2).unwrap_or(Rational::ONE);
             translator.insert(Blade(blade.0 | infinity.0), value.scaled(half));
@@ -123,8 +141,12 @@ fn enter_frame(lowering: &mut Lowering<'_>, spec: &Spec, source: &KernelSource, 
         let components = lowering.parameters[index].clone();
         let mark = lowering.builder.entries().len();
         let moved = lowering.sandwich_by(Sandwich::Commutator, &back, &components);
-        let fields = infer::fit(spec, &mut lowering.builder, &moved, *ty)
-            .ok_or_else(|| Error::new(name.span(), "this parameter's type is not kept by a translation, so it cannot enter a local frame"))?;
+        let fields = infer::fit(spec, &mut lowering.builder, &moved, *ty).ok_or_else(|| {
+            Error::new(
+                name.span(),
+                "this parameter's type is not kept by a translation, so it cannot enter a local frame",
+            )
+        })?;
         // The derived coefficients are formed anew, from the differences.
         lowering.builder.forget_since(mark, &fields);
         lowering.parameters[index] = lowering.of_type(&spec.types[*ty], &fields, &name.to_string());
@@ -149,7 +171,10 @@ impl Reader<'_> {
             }
             Expr::Binary(binary) => self.binary(binary),
             Expr::MethodCall(call) => self.method(call),
-            other => Err(Error::new(other.span(), "a kernel has names, integers, + - * / ^ | &, brackets and the methods rev, dual, undual, grade, apply, normalised")),
+            other => Err(Error::new(
+                other.span(),
+                "a kernel has names, integers, + - * / ^ | &, brackets and the methods rev, dual, undual, grade, apply, normalised",
+            )),
         }
     }
 
@@ -194,8 +219,13 @@ impl Reader<'_> {
             ("undual", []) => Ok(Expression::Undual(receiver)),
             ("normalised", []) => Ok(Expression::Normalised(receiver)),
             ("apply", [x]) => Ok(Expression::Sandwich(receiver, Box::new(self.expression(x)?))),
-            ("grade", [Expr::Lit(grade)]) => Ok(Expression::Grade(u32::try_from(integer(&grade.lit)?).unwrap_or(u32::MAX), receiver)),
-            _ => Err(Error::new(call.method.span(), "a multivector has rev(), dual(), undual(), grade(k), apply(x) and normalised()")),
+            ("grade", [Expr::Lit(grade)]) => {
+                Ok(Expression::Grade(u32::try_from(integer(&grade.lit)?).unwrap_or(u32::MAX), receiver))
+            }
+            _ => Err(Error::new(
+                call.method.span(),
+                "a multivector has rev(), dual(), undual(), grade(k), apply(x) and normalised()",
+            )),
         }
     }
 }
@@ -209,12 +239,17 @@ fn refuse_bare_mix(binary: &syn::ExprBinary) -> syn::Result<()> {
         BinOp::Add(_) | BinOp::Sub(_) => Some(0),
         _ => None,
     };
-    let Some(outer) = rank(&binary.op) else { return Ok(()) };
+    let Some(outer) = rank(&binary.op) else {
+        return Ok(());
+    };
     for side in [&*binary.left, &*binary.right] {
         if let Expr::Binary(inner) = side
             && rank(&inner.op).is_some_and(|inner| inner != outer)
         {
-            return Err(Error::new(inner.op.span(), "put brackets round this: Rust binds + - tighter than &, & tighter than ^, and ^ tighter than |"));
+            return Err(Error::new(
+                inner.op.span(),
+                "put brackets round this: Rust binds + - tighter than &, & tighter than ^, and ^ tighter than |",
+            ));
         }
     }
     Ok(())

@@ -78,7 +78,8 @@ impl<'a> Lowering<'a> {
     /// The components of a type with given fields.
     pub fn of_type(&mut self, ty: &Type, fields: &[Scaled], hint: &str) -> Components {
         let components = ty.coefficients.iter().map(|(blade, polynomial)| {
-            let products: Vec<_> = polynomial.terms().map(|(f, c)| (c, f.iter().map(|i| fields[*i]).collect())).collect();
+            let products: Vec<_> =
+                polynomial.terms().map(|(f, c)| (c, f.iter().map(|i| fields[*i]).collect())).collect();
             (*blade, self.builder.sum(&products, &format!("{hint}_{}", self.spec.signature.name(*blade))))
         });
         components.collect()
@@ -264,6 +265,8 @@ pub fn may_expand(v: usize, x: usize) -> bool {
 /// The reverse.
 #[must_use]
 pub fn reversed(a: &Components) -> Components {
-    let sign = |blade: Blade| if blade.reverse_is_negative() { -Rational::ONE } else { Rational::ONE };
+    let sign = |blade: Blade| {
+        if blade.reverse_is_negative() { -Rational::ONE } else { Rational::ONE }
+    };
     a.iter().map(|(blade, value)| (*blade, value.scaled(sign(*blade)))).collect()
 }

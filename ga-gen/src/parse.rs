@@ -192,7 +192,10 @@ impl Parse for Basis {
         let second = names.parse()?;
         input.parse::<Token![=]>()?;
         match parse_square(input)? {
-            0 => Err(syn::Error::new(first.span(), "a null pair has inner product 1 or -1; with 0 these are two vectors of square 0")),
+            0 => Err(syn::Error::new(
+                first.span(),
+                "a null pair has inner product 1 or -1; with 0 these are two vectors of square 0",
+            )),
             inner => Ok(Self::Pair(first, second, inner)),
         }
     }
@@ -213,7 +216,8 @@ impl TypeSource {
             let mut stored = Vec::new();
             while !blades.is_empty() {
                 let blade = blades.parse()?;
-                let constant = if blades.parse::<Option<Token![=]>>()?.is_some() { Some(blades.parse()?) } else { None };
+                let constant =
+                    if blades.parse::<Option<Token![=]>>()?.is_some() { Some(blades.parse()?) } else { None };
                 stored.push((blade, constant));
                 if !blades.is_empty() {
                     blades.parse::<Token![,]>()?;

@@ -149,7 +149,9 @@ impl Builder {
             .filter(|(_, coefficient)| !coefficient.is_zero())
             .map(|(factors, coefficient)| Term { coefficient, factors })
             .collect();
-        let Some(first) = terms.first() else { return Scaled::ZERO };
+        let Some(first) = terms.first() else {
+            return Scaled::ZERO;
+        };
         // The primitive part: coefficients without a common factor, the first one positive.
         let sign = if first.coefficient.is_negative() { -Rational::ONE } else { Rational::ONE };
         let content = terms.iter().fold(Rational::ZERO, |c, term| term.coefficient.content(c)) * sign;
@@ -174,7 +176,9 @@ impl Builder {
     /// `numerator / denominator`; a constant denominator folds.
     pub fn quotient(&mut self, numerator: Rational, denominator: Scaled, hint: &str) -> Option<Scaled> {
         let factor = numerator * denominator.coefficient.recip()?;
-        let Some(id) = denominator.node else { return Some(Scaled::constant(factor)) };
+        let Some(id) = denominator.node else {
+            return Some(Scaled::constant(factor));
+        };
         let fingerprint = self.entries[id].fingerprint.map(|value| value.inverse());
         let fingerprint = fingerprint.times(Fingerprint::constant(factor));
         Some(self.intern(Node::Quotient(factor, id), hint, fingerprint))

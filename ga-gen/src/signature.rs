@@ -74,7 +74,8 @@ impl Signature {
         }
         let mut name = String::new();
         for (index, vector) in self.names.iter().enumerate().filter(|(index, _)| blade.contains(*index)) {
-            let digits = vector.strip_prefix('e').filter(|rest| rest.len() == 1 && rest.bytes().all(|b| b.is_ascii_digit()));
+            let digits =
+                vector.strip_prefix('e').filter(|rest| rest.len() == 1 && rest.bytes().all(|b| b.is_ascii_digit()));
             match digits {
                 Some(digit) if name.ends_with(|last: char| last.is_ascii_digit()) => name += digit,
                 _ => {

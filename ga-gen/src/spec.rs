@@ -41,7 +41,7 @@ impl Type {
     #[must_use]
     pub fn weight(&self) -> Option<(Blade, Rational)> {
         let mut constants = self.coefficients.iter().filter_map(|(blade, c)| Some((*blade, c.as_constant()?)));
-        constants.next().filter(|_| constants.next().is_none() && !self.fields.is_empty())
+        constants.next().filter(|_| constants.next().is_none())
     }
 
     /// The grades that occur.
@@ -163,17 +163,20 @@ impl Spec {
             versor = self.dense_product(&versor, &unit);
         }
         let element = if is_vector {
-            let start = blades.iter().copied().find(|b| self.signature.geometric(*b, *b) == [(Blade::SCALAR, Rational::ONE)]);
+            let start =
+                blades.iter().copied().find(|b| self.signature.geometric(*b, *b) == [(Blade::SCALAR, Rational::ONE)]);
             let start = start.unwrap_or_default();
             let image = self.dense_product(&versor, &[(start, Residue::ONE)].into());
             self.dense_product(&image, &reversed(&versor))
         } else {
             versor
         };
-        let inside = element.iter().all(|(blade, value)| *value == Residue::ZERO || ty.coefficients.contains_key(blade));
+        let inside =
+            element.iter().all(|(blade, value)| *value == Residue::ZERO || ty.coefficients.contains_key(blade));
         let even = is_vector || blades.iter().all(|blade| blade.grade() % 2 == 0);
         if !(inside && even) {
-            let message = "`unit` is for even versors that form a group, and for vectors; this set of blades is neither";
+            let message =
+                "`unit` is for even versors that form a group, and for vectors; this set of blades is neither";
             return Err(Error::new(ty.name.span(), message));
         }
         Ok(element)
@@ -232,7 +235,8 @@ fn add_basis(signature: &mut Signature, basis: &[Basis]) -> syn::Result<()> {
             Basis::Pair(first, second, inner) => signature.push_pair(first.to_string(), second.to_string(), *inner),
         }
         if signature.dimension() > Signature::MAX_DIMENSION {
-            let message = format!("more than {} basis vectors: unrolled products would not pay", Signature::MAX_DIMENSION);
+            let message =
+                format!("more than {} basis vectors: unrolled products would not pay", Signature::MAX_DIMENSION);
             return Err(Error::new(names[0].span(), message));
         }
     }
@@ -264,11 +268,16 @@ fn check_type(signature: &Signature, source: &TypeSource) -> syn::Result<Type> {
         match fact.to_string().as_str() {
             "unit" => ty.unit = true,
             "versor" => ty.versor = true,
-            other => return Err(Error::new(fact.span(), format!("unknown fact `{other}`; there are `unit` and `versor`"))),
+            other => {
+                return Err(Error::new(fact.span(), format!("unknown fact `{other}`; there are `unit` and `versor`")));
+            }
         }
     }
     if ty.versor && !ty.unit {
-        return Err(Error::new(source.name.span(), "a versor type is `unit + versor`: apply does not divide by the norm"));
+        return Err(Error::new(
+            source.name.span(),
+            "a versor type is `unit + versor`: apply does not divide by the norm",
+        ));
     }
     match &source.body {
         TypeBody::Stored(blades) => {
@@ -296,7 +305,11 @@ fn check_type(signature: &Signature, source: &TypeSource) -> syn::Result<Type> {
 }
 
 /// Evaluates the sum form of a type: identifiers are blades, or else fields in order of appearance.
-fn evaluate(signature: &Signature, fields: &mut Vec<String>, expression: &Expr) -> syn::Result<BTreeMap<Blade, Polynomial>> {
+fn evaluate(
+    signature: &Signature,
+    fields: &mut Vec<String>,
+    expression: &Expr,
+) -> syn::Result<BTreeMap<Blade, Polynomial>> {
     let only = |blade, polynomial| BTreeMap::from([(blade, polynomial)]);
     match expression {
         Expr::Paren(inner) => evaluate(signature, fields, &inner.expr),
@@ -319,7 +332,8 @@ fn evaluate(signature: &Signature, fields: &mut Vec<String>, expression: &Expr) 
         Expr::Binary(binary) => {
             let a = evaluate(signature, fields, &binary.left)?;
             let b = evaluate(signature, fields, &binary.right)?;
-            let scalar = |m: &BTreeMap<Blade, Polynomial>| (m.len() == 1).then(|| m.get(&Blade::SCALAR).cloned()).flatten();
+            let scalar =
+                |m: &BTreeMap<Blade, Polynomial>| (m.len() == 1).then(|| m.get(&Blade::SCALAR).cloned()).flatten();
             match (&binary.op, scalar(&a), scalar(&b)) {
                 (BinOp::Add(_), ..) => Ok(add(a, &b)),
                 (BinOp::Sub(_), ..) => Ok(add(a, &scale(b, &Polynomial::constant(-Rational::ONE)))),
@@ -327,13 +341,20 @@ fn evaluate(signature: &Signature, fields: &mut Vec<String>, expression: &Expr) 
                 (BinOp::Mul(_), _, Some(factor)) => Ok(scale(a, &factor)),
                 (BinOp::Div(_), _, Some(divisor)) => {
                     let inverse = divisor.as_constant().and_then(Rational::recip);
-                    let inverse = inverse.ok_or_else(|| Error::new(binary.right.span(), "only division by a number other than zero"))?;
+                    let inverse = inverse
+                        .ok_or_else(|| Error::new(binary.right.span(), "only division by a number other than zero"))?;
                     Ok(scale(a, &Polynomial::constant(inverse)))
                 }
-                _ => Err(Error::new(expression.span(), "a coefficient is a polynomial in the fields, times one basis blade")),
+                _ => Err(Error::new(
+                    expression.span(),
+                    "a coefficient is a polynomial in the fields, times one basis blade",
+                )),
             }
         }
-        other => Err(Error::new(other.span(), "a type is a sum like `x*e1 + no + (x*x)/2*ninf`: + - * /, fields, blades and integers")),
+        other => Err(Error::new(
+            other.span(),
+            "a type is a sum like `x*e1 + no + (x*x)/2*ninf`: + - * /, fields, blades and integers",
+        )),
     }
 }
 
@@ -356,6 +377,9 @@ fn scale(a: BTreeMap<Blade, Polynomial>, factor: &Polynomial) -> BTreeMap<Blade,
 pub fn integer(literal: &Lit) -> syn::Result<i32> {
     match literal {
         Lit::Int(value) => value.base10_parse(),
-        other => Err(Error::new(other.span(), "numbers in a formula are integers; write 1/2 for a half, so that it stays exact")),
+        other => Err(Error::new(
+            other.span(),
+            "numbers in a formula are integers; write 1/2 for a half, so that it stays exact",
+        )),
     }
 }

@@ -9,13 +9,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A commutative field, as far as its precision goes.
 pub trait Scalar:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-    + 'static
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self> + 'static
 {
     /// The constant `numerator / denominator`.
     fn ratio(numerator: i32, denominator: i32) -> Self;

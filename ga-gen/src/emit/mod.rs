@@ -36,7 +36,8 @@ pub fn algebra(spec: &Spec, tokens: &TokenStream) -> syn::Result<TokenStream> {
             result.extend(tokens);
         }
     }
-    let (spec_macro, operations_macro) = (format_ident!("__ga_spec_{}", spec.name), format_ident!("__ga_operations_{}", spec.name));
+    let (spec_macro, operations_macro) =
+        (format_ident!("__ga_spec_{}", spec.name), format_ident!("__ga_operations_{}", spec.name));
     result.extend(quote! {
         #[doc(hidden)]
         #[macro_export]
@@ -123,7 +124,10 @@ fn metric(spec: &Spec) -> TokenStream {
         _ => quote!(#magnitude),
     });
     let sign = types::orthonormal_pseudoscalar_sign(spec);
-    let doc = format!("The metric of `{}` in an orthonormal basis: a null pair `(o, i)` stands for two vectors `p, m` of squares +1, -1 with `i = p + m`.", spec.name);
+    let doc = format!(
+        "The metric of `{}` in an orthonormal basis: a null pair `(o, i)` stands for two vectors `p, m` of squares +1, -1 with `i = p + m`.",
+        spec.name
+    );
     quote! {
         #[doc = #doc]
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]

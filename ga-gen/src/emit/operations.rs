@@ -94,12 +94,14 @@ pub(super) fn emit(spec: &Spec, item: &Item) -> TokenStream {
         Operation::Meet(left, right) => {
             let (a, b) = (operand(0), operand(1));
             let own = !(spec.types[left].shared && spec.types[right].shared);
-            let operator = own.then(|| quote! {
-                impl<T: #scalar> ::core::ops::BitAnd<#b> for #a {
-                    type Output = #output;
-                    #[doc = #doc]
-                    #[inline]
-                    fn bitand(self, b: #b) -> #output { Meet::meet(self, b) }
+            let operator = own.then(|| {
+                quote! {
+                    impl<T: #scalar> ::core::ops::BitAnd<#b> for #a {
+                        type Output = #output;
+                        #[doc = #doc]
+                        #[inline]
+                        fn bitand(self, b: #b) -> #output { Meet::meet(self, b) }
+                    }
                 }
             });
             quote! {
@@ -136,8 +138,12 @@ pub(super) fn emit(spec: &Spec, item: &Item) -> TokenStream {
         Operation::Reverse(_) => inherent(spec, item, &format_ident!("rev"), &output, &doc, &body),
         Operation::NormSq(_) => inherent(spec, item, &format_ident!("norm_sq"), &output, &doc, &body),
         Operation::Grade(grade, _) => inherent(spec, item, &format_ident!("grade{grade}"), &output, &doc, &body),
-        Operation::Dual(_) => unary_trait(spec, item, &format_ident!("Dual"), &format_ident!("dual"), &output, &doc, &body),
-        Operation::Undual(_) => unary_trait(spec, item, &format_ident!("Undual"), &format_ident!("undual"), &output, &doc, &body),
+        Operation::Dual(_) => {
+            unary_trait(spec, item, &format_ident!("Dual"), &format_ident!("dual"), &output, &doc, &body)
+        }
+        Operation::Undual(_) => {
+            unary_trait(spec, item, &format_ident!("Undual"), &format_ident!("undual"), &output, &doc, &body)
+        }
         Operation::Kernel(index) => {
             let source = &spec.kernels[index];
             let (visibility, name, docs) = (&spec.visibility, &source.name, &source.docs);
@@ -166,7 +172,14 @@ fn body(spec: &Spec, item: &Item) -> TokenStream {
     quote!(#steps #result)
 }
 
-fn inherent(spec: &Spec, item: &Item, name: &Ident, output: &TokenStream, doc: &str, body: &TokenStream) -> TokenStream {
+fn inherent(
+    spec: &Spec,
+    item: &Item,
+    name: &Ident,
+    output: &TokenStream,
+    doc: &str,
+    body: &TokenStream,
+) -> TokenStream {
     let ty = types::path(spec, item.parameters[0].1);
     quote! {
         impl<T: ::ga_physics::algebra::Scalar> #ty {
@@ -177,14 +190,24 @@ fn inherent(spec: &Spec, item: &Item, name: &Ident, output: &TokenStream, doc: &
     }
 }
 
-fn unary_trait(spec: &Spec, item: &Item, name: &Ident, method: &Ident, output: &TokenStream, doc: &str, body: &TokenStream) -> TokenStream {
+fn unary_trait(
+    spec: &Spec,
+    item: &Item,
+    name: &Ident,
+    method: &Ident,
+    output: &TokenStream,
+    doc: &str,
+    body: &TokenStream,
+) -> TokenStream {
     let index = item.parameters[0].1;
     let ty = types::path(spec, index);
-    let forward = (!spec.types[index].shared).then(|| quote! {
-        impl<T: ::ga_physics::algebra::Scalar> #ty {
-            #[doc = #doc]
-            #[inline]
-            pub fn #method(self) -> #output { #name::#method(self) }
+    let forward = (!spec.types[index].shared).then(|| {
+        quote! {
+            impl<T: ::ga_physics::algebra::Scalar> #ty {
+                #[doc = #doc]
+                #[inline]
+                pub fn #method(self) -> #output { #name::#method(self) }
+            }
         }
     });
     quote! {

@@ -108,7 +108,11 @@ fn field_text(spec: &Spec, ty: &Type, field: usize) -> String {
         Some((blade, polynomial)) => {
             let factor = polynomial.as_stored().map_or(Rational::ONE, |(factor, _)| factor);
             let name = spec.signature.name(*blade);
-            if factor == Rational::ONE { format!("The coefficient of `{name}`.") } else { format!("The coefficient of `{name}` is {factor} times this.") }
+            if factor == Rational::ONE {
+                format!("The coefficient of `{name}`.")
+            } else {
+                format!("The coefficient of `{name}` is {factor} times this.")
+            }
         }
         None => "Enters derived coefficients only; see the type.".into(),
     }
@@ -235,7 +239,8 @@ fn unit_operations(spec: &Spec, index: usize, ty: &Type) -> TokenStream {
         });
     }
     if ty.versor {
-        let identity = ty.fields.iter().map(|field| if field == "s" { quote!(T::ratio(1, 1)) } else { quote!(T::ratio(0, 1)) });
+        let identity =
+            ty.fields.iter().map(|field| if field == "s" { quote!(T::ratio(1, 1)) } else { quote!(T::ratio(0, 1)) });
         tokens.extend(quote! {
             impl<T: ::ga_physics::algebra::Scalar> Default for #name<T> {
                 /// The identity.
@@ -284,7 +289,8 @@ pub(super) fn orthonormal(spec: &Spec, blade: Blade) -> Vec<(Blade, Rational)> {
 
 /// The sign of the declared pseudoscalar against the product of the orthonormal basis.
 pub(super) fn orthonormal_pseudoscalar_sign(spec: &Spec) -> Literal {
-    let declared = spec.pseudoscalar.map(|i| orthonormal(spec, i.blade).first().map_or(Rational::ONE, |(_, c)| *c) * i.sign);
+    let declared =
+        spec.pseudoscalar.map(|i| orthonormal(spec, i.blade).first().map_or(Rational::ONE, |(_, c)| *c) * i.sign);
     // 0 says that no pseudoscalar was declared.
     Literal::i8_unsuffixed(declared.map_or(0, |sign| if sign.is_negative() { -1 } else { 1 }))
 }
@@ -339,5 +345,9 @@ pub(super) fn to_dynamic(spec: &Spec, index: usize) -> TokenStream {
 fn rational(value: Rational) -> TokenStream {
     let part = |n: i128| Literal::i32_unsuffixed(i32::try_from(n).unwrap_or(i32::MAX));
     let (magnitude, denominator) = (part(value.numerator().abs()), part(value.denominator()));
-    if value.is_negative() { quote!(T::ratio(-#magnitude, #denominator)) } else { quote!(T::ratio(#magnitude, #denominator)) }
+    if value.is_negative() {
+        quote!(T::ratio(-#magnitude, #denominator))
+    } else {
+        quote!(T::ratio(#magnitude, #denominator))
+    }
 }

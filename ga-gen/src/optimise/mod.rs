@@ -63,6 +63,7 @@ pub fn optimise(builder: &Builder, outputs: &[(String, Scaled)]) -> Program {
         })
         .collect();
     let mut graph = Graph { nodes, outputs };
+    flatten::flatten(&mut graph);
     squares::complete_squares(&mut graph);
     flatten::flatten(&mut graph);
     scale::pull_scales(&mut graph);
@@ -72,7 +73,8 @@ pub fn optimise(builder: &Builder, outputs: &[(String, Scaled)]) -> Program {
 
 /// Names the steps and lists them in dependency order.
 fn schedule(graph: &Graph) -> Program {
-    let mut scheduler = Scheduler { graph, names: BTreeMap::new(), taken: BTreeMap::new(), program: Program::default() };
+    let mut scheduler =
+        Scheduler { graph, names: BTreeMap::new(), taken: BTreeMap::new(), program: Program::default() };
     for (name, terms) in &graph.outputs {
         let value = Value::Sum(scheduler.products(terms));
         scheduler.program.outputs.push(Step { name: name.clone(), value });

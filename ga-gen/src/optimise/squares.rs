@@ -10,7 +10,8 @@ pub(super) fn complete_squares(graph: &mut Graph) {
         if let Node::Sum(mut terms) = graph.nodes[id].node.clone() {
             let hint = graph.nodes[id].hint.clone();
             while let Some((square, used)) = find_square(graph, &terms, &hint) {
-                terms = terms.into_iter().enumerate().filter(|(i, _)| !used.contains(i)).map(|(_, term)| term).collect();
+                terms =
+                    terms.into_iter().enumerate().filter(|(i, _)| !used.contains(i)).map(|(_, term)| term).collect();
                 terms.push(square);
             }
             graph.nodes[id].node = Node::Sum(terms);
@@ -20,9 +21,8 @@ pub(super) fn complete_squares(graph: &mut Graph) {
 
 /// The first complete square: its term, with the new node `x ± y`, and the three terms that it stands for.
 fn find_square(graph: &mut Graph, terms: &[Term], hint: &str) -> Option<(Term, [usize; 3])> {
-    let square_of = |node: NodeId, c: Rational| {
-        terms.iter().position(|term| term.coefficient == c && term.factors == [node, node])
-    };
+    let square_of =
+        |node: NodeId, c: Rational| terms.iter().position(|term| term.coefficient == c && term.factors == [node, node]);
     for (index, term) in terms.iter().enumerate() {
         let [x, y] = term.factors[..] else { continue };
         if x == y {

@@ -1,0 +1,290 @@
+//! Every generated operation of every type against the dynamic multivector, in exact arithmetic.
+//!
+//! The generated code works in the null basis, from programs that a compiler rewrote; the dynamic multivector works in
+//! an orthonormal basis, from a table of signs. Types without facts are sampled with small integers, unit types with
+//! exactly unit elements made as q²/|q|². Equality is exact.
+#![allow(clippy::unwrap_used, clippy::cast_possible_truncation, reason = "a test may panic")]
+
+#[path = "support/rational.rs"]
+mod rational;
+
+use ga_physics::algebra::dynamic::{Dynamic, ToDynamic};
+use ga_physics::algebra::{cga, g3};
+use rational::Rational;
+
+/// SplitMix64: small integers, zero included.
+struct Random(u64);
+
+impl Random {
+    fn integer(&mut self) -> i128 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        i128::from((z ^ (z >> 31)) % 7) - 3
+    }
+
+    fn rational(&mut self) -> Rational {
+        Rational::new(self.integer(), 1)
+    }
+}
+
+trait Sample {
+    fn sample(random: &mut Random) -> Self;
+}
+
+/// q²/|q|² of an integer quaternion: an exactly unit rotor.
+fn unit_rotor(random: &mut Random) -> g3::Rotor<Rational> {
+    let [w, x, y, z] = [4 + random.integer(), random.integer(), random.integer(), random.integer()];
+    let norm = w * w + x * x + y * y + z * z;
+    let part = |n| Rational::new(n, norm);
+    g3::Rotor::new(part(w * w - x * x - y * y - z * z), part(2 * w * x), part(2 * w * y), part(2 * w * z))
+}
+
+fn unit_translator(random: &mut Random) -> cga::Translator<Rational> {
+    cga::Translator::from_fn(|_| Rational::new(random.integer(), 2))
+}
+
+macro_rules! integers {
+    ($($name:ident)*) => {$(
+        impl Sample for $name {
+            fn sample(random: &mut Random) -> Self { Self::from_fn(|_| random.rational()) }
+        }
+    )*};
+}
+
+macro_rules! constants {
+    ($($name:ident)*) => {$(
+        impl Sample for $name { fn sample(_: &mut Random) -> Self { Self } }
+    )*};
+}
+
+/// Comparison of results, bare scalars included.
+macro_rules! checks {
+    ($algebra:ty) => {
+        type Multi = Dynamic<$algebra, Rational>;
+
+        impl ToDynamic<$algebra, Rational> for Rational {
+            fn to_dynamic(&self) -> Multi {
+                Dynamic::from_terms(&[(0, *self)])
+            }
+        }
+
+        fn binary<A, B, C>(name: &str, op: impl Fn(A, B) -> C, expected: impl Fn(&Multi, &Multi) -> Multi)
+        where
+            A: Sample + Copy + ToDynamic<$algebra, Rational>,
+            B: Sample + Copy + ToDynamic<$algebra, Rational>,
+            C: ToDynamic<$algebra, Rational>,
+        {
+            let mut random = Random(name.bytes().map(u64::from).sum());
+            for _ in 0..4 {
+                let (a, b) = (A::sample(&mut random), B::sample(&mut random));
+                let (x, y) = (a.to_dynamic(), b.to_dynamic());
+                let (actual, expected) = (op(a, b).to_dynamic(), expected(&x, &y));
+                assert!(actual == expected, "{name}: {x:?} and {y:?} give {actual:?}, expected {expected:?}");
+            }
+        }
+
+        fn unary<A, C>(name: &str, op: impl Fn(A) -> C, expected: impl Fn(&Multi) -> Multi)
+        where
+            A: Sample + Copy + ToDynamic<$algebra, Rational>,
+            C: ToDynamic<$algebra, Rational>,
+        {
+            let mut random = Random(name.bytes().map(u64::from).sum());
+            for _ in 0..4 {
+                let a = A::sample(&mut random);
+                let x = a.to_dynamic();
+                let (actual, expected) = (op(a).to_dynamic(), expected(&x));
+                assert!(actual == expected, "{name}: {x:?} gives {actual:?}, expected {expected:?}");
+            }
+        }
+    };
+}
+
+macro_rules! check {
+    ($(($($entry:tt)*))*) => {
+        /// How many operations of each kind were compared.
+        fn compare_all() -> usize {
+            let mut count = 0;
+            $( count += 1; one!($($entry)*); )*
+            count
+        }
+    };
+}
+
+macro_rules! one {
+    (mul $a:ident $b:ident) => {
+        binary::<$a, $b, _>(concat!(stringify!($a), " * ", stringify!($b)), |a, b| a * b, |x, y| x * y)
+    };
+    (bitxor $a:ident $b:ident) => {
+        binary::<$a, $b, _>(concat!(stringify!($a), " ^ ", stringify!($b)), |a, b| a ^ b, |x, y| x ^ y)
+    };
+    (bitor $a:ident $b:ident) => {
+        binary::<$a, $b, _>(concat!(stringify!($a), " | ", stringify!($b)), |a, b| a | b, |x, y| x | y)
+    };
+    (meet $a:ident $b:ident) => {
+        binary::<$a, $b, _>(
+            concat!(stringify!($a), " & ", stringify!($b)),
+            |a, b| algebra::meet(a, b),
+            |x, y| x.meet(y).unwrap(),
+        )
+    };
+    (apply $a:ident $b:ident) => {
+        binary::<$a, $b, _>(
+            concat!(stringify!($a), ".apply(", stringify!($b), ")"),
+            |a, b| a.apply(b),
+            |x, y| image(x, y, stringify!($b)),
+        )
+    };
+    (embed $a:ident $b:ident) => {
+        unary::<$a, $b>(concat!(stringify!($b), "::from(", stringify!($a), ")"), |a| $b::from(a), |x| x.clone())
+    };
+    (rev $a:ident) => {
+        unary::<$a, _>(concat!(stringify!($a), ".rev()"), |a| a.rev(), |x| x.rev())
+    };
+    (dual $a:ident) => {
+        unary::<$a, _>(concat!("dual ", stringify!($a)), |a| algebra::dual(a), |x| x.dual().unwrap())
+    };
+    (undual $a:ident) => {
+        unary::<$a, _>(concat!("undual ", stringify!($a)), |a| algebra::undual(a), |x| x.undual().unwrap())
+    };
+    (norm_sq $a:ident) => {
+        unary::<$a, _>(concat!(stringify!($a), ".norm_sq()"), |a| a.norm_sq(), |x| (x * &x.rev()).grade(0))
+    };
+    (grade $a:ident $method:ident $grade:literal) => {
+        unary::<$a, _>(concat!(stringify!($a), " grade ", $grade), |a| a.$method(), |x| x.grade($grade))
+    };
+}
+
+mod euclidean {
+    use super::*;
+    use g3 as algebra;
+    type Vector = g3::Vector<Rational>;
+    type Bivector = g3::Bivector<Rational>;
+    type Trivector = g3::Trivector<Rational>;
+    type Rotor = g3::Rotor<Rational>;
+    type Even = g3::Even<Rational>;
+    type Odd = g3::Odd<Rational>;
+    type Multivector = g3::Multivector<Rational>;
+
+    integers!(Vector Bivector Trivector Even Odd Multivector);
+    impl Sample for Rotor {
+        fn sample(random: &mut Random) -> Self {
+            unit_rotor(random)
+        }
+    }
+    checks!(g3::Algebra);
+    fn image(versor: &Multi, x: &Multi, _type_name: &str) -> Multi {
+        versor.apply(x)
+    }
+    g3::__operations!(check);
+
+    #[test]
+    fn every_operation_of_g3_agrees_with_the_dynamic_multivector() {
+        let compared = compare_all();
+        println!("{compared} operations");
+        assert!(compared > 100, "only {compared} operations were compared");
+    }
+}
+
+mod conformal {
+    use super::*;
+    use cga as algebra;
+    use cga::{Infinity, Origin};
+    type Vector = g3::Vector<Rational>;
+    type Bivector = g3::Bivector<Rational>;
+    type Trivector = g3::Trivector<Rational>;
+    type Rotor = g3::Rotor<Rational>;
+    type Point = cga::Point<Rational>;
+    type Sphere = cga::Sphere<Rational>;
+    type Plane = cga::Plane<Rational>;
+    type FlatPoint = cga::FlatPoint<Rational>;
+    type Round = cga::Round<Rational>;
+    type Translator = cga::Translator<Rational>;
+    type Dilator = cga::Dilator<Rational>;
+    type DualLine = cga::DualLine<Rational>;
+    type Line = cga::Line<Rational>;
+    type Twist = cga::Twist<Rational>;
+    type PointPair = cga::PointPair<Rational>;
+    type Circle = cga::Circle<Rational>;
+    type DirectPlane = cga::DirectPlane<Rational>;
+    type DirectSphere = cga::DirectSphere<Rational>;
+    type Pseudoscalar = cga::Pseudoscalar<Rational>;
+    type Motor = cga::Motor<Rational>;
+    type Even = cga::Even<Rational>;
+    type Odd = cga::Odd<Rational>;
+    type Multivector = cga::Multivector<Rational>;
+
+    integers!(Point Sphere FlatPoint Round DualLine Line Twist PointPair Circle DirectPlane DirectSphere);
+    integers!(Pseudoscalar Even Odd Multivector);
+    constants!(Infinity Origin);
+    impl Sample for Translator {
+        fn sample(random: &mut Random) -> Self {
+            unit_translator(random)
+        }
+    }
+    impl Sample for Motor {
+        fn sample(random: &mut Random) -> Self {
+            unit_translator(random) * unit_rotor(random)
+        }
+    }
+    impl Sample for Dilator {
+        fn sample(random: &mut Random) -> Self {
+            // (a + b E)² / (a² - b²)
+            let (a, b) = (5 + random.integer(), random.integer().signum());
+            let norm = a * a - b * b;
+            Self::new(Rational::new(a * a + b * b, norm), Rational::new(2 * a * b, norm))
+        }
+    }
+    impl Sample for Plane {
+        fn sample(random: &mut Random) -> Self {
+            // Stereographic projection of an integer point: a rational unit normal.
+            let (p, q) = (random.integer(), random.integer());
+            let part = |n| Rational::new(n, p * p + q * q + 1);
+            Self::new(part(2 * p), part(2 * q), part(p * p + q * q - 1), random.rational())
+        }
+    }
+    checks!(cga::Algebra);
+
+    /// The weight `-X . ninf` of a vector, unless it is 0; `ninf = e + ebar`.
+    fn weight(x: &Multi) -> Option<Rational> {
+        let weight = x.coefficient(1 << 4) - x.coefficient(1 << 3);
+        (weight != Rational::new(0, 1)).then_some(weight)
+    }
+    /// The sandwich; for a type of weight 1 divided by its weight, which is what `apply` says.
+    fn image(versor: &Multi, x: &Multi, type_name: &str) -> Multi {
+        let image = versor.apply(x);
+        let weight = match type_name {
+            "Point" | "Sphere" | "Origin" => weight(&image),
+            "Infinity" => Some(image.coefficient(1 << 4)),
+            _ => None,
+        };
+        weight.map_or(image.clone(), |weight| image.scaled(Rational::new(1, 1) / weight))
+    }
+    cga::__operations!(check);
+
+    #[test]
+    fn every_operation_of_cga_agrees_with_the_dynamic_multivector() {
+        let compared = compare_all();
+        println!("{compared} operations");
+        assert!(compared > 1500, "only {compared} operations were compared");
+    }
+
+    #[test]
+    fn the_sphere_kernel_agrees_with_the_wedge() {
+        let mut random = Random(7);
+        let mut spheres = 0;
+        for _ in 0..200 {
+            let points: [Point; 4] = std::array::from_fn(|_| Point::sample(&mut random));
+            let [a, b, c, d] = points.map(|point| point.to_dynamic());
+            let wedge = (&(&(&a ^ &b) ^ &c) ^ &d).dual().unwrap();
+            if let Some(weight) = weight(&wedge) {
+                let expected = wedge.scaled(Rational::new(1, 1) / weight);
+                let [a, b, c, d] = points;
+                assert!(cga::circumsphere(a, b, c, d).to_dynamic() == expected);
+                spheres += 1;
+            }
+        }
+        assert!(spheres > 100, "only {spheres} of the samples span space");
+    }
+}
