@@ -8,6 +8,7 @@ pub mod algebra;
 pub use ga_macros::{__algebra_with_base, algebra};
 
 pub mod geometry;
+pub mod versor;
 #[cfg(feature = "cli")]
 pub mod io;
 #[cfg(feature = "cli")]

@@ -70,9 +70,61 @@ crate::algebra! {
         e123_no, e123_ninf, e23_no_ninf, e31_no_ninf, e12_no_ninf, e123_no_ninf,
     ];
 
-    /// The sphere through four points, in the local frame of the first. Coplanar points divide by zero;
-    /// `geometry` has the checked form.
+    /// The sphere through four points: centre and squared radius, in the local frame of the first point. Coplanar
+    /// points divide by zero; `geometry::sphere_through` has the checked form.
     fn circumsphere(a: Point, b: Point, c: Point, d: Point) -> Sphere, local a {
         (a ^ b ^ c ^ d).dual().normalised()
+    }
+    /// The sphere through four points relative to the first, of weight 6 times their signed volume.
+    fn circumsphere_relative(a: Point, b: Point, c: Point, d: Point) -> Round, relative a {
+        (a ^ b ^ c ^ d).dual()
+    }
+    /// The smallest sphere through three points: it has the centre and radius of their circle. With the circle
+    /// `K = a ^ b ^ c` it is `K ^ (K ^ ninf)*`; the result is relative to the first point, of weight 4 times the squared
+    /// area.
+    fn circle_sphere_relative(a: Point, b: Point, c: Point) -> Round, relative a {
+        (((a ^ b) ^ c) ^ (((a ^ b) ^ c) ^ Infinity).dual()).dual()
+    }
+    /// The smallest sphere through two points, `(A + B)/2 + (A . B)/2 ninf`: centre in the middle, radius half the distance.
+    fn pair_sphere(a: Point, b: Point) -> Sphere, local a {
+        (a + b) / 2 + ((a | b) * Infinity) / 2
+    }
+    /// The plane through three points relative to the first, with a normal of twice the area by the right-hand rule.
+    fn plane_relative(a: Point, b: Point, c: Point) -> Round, relative a {
+        (a ^ b ^ c ^ Infinity).dual()
+    }
+    /// The line through two points relative to the first: `a ^ b ^ ninf`.
+    fn line_relative(a: Point, b: Point) -> Line, relative a {
+        a ^ b ^ Infinity
+    }
+    /// Where the line through two points meets a plane, relative to the first point.
+    fn line_meets_plane_relative(a: Point, b: Point, plane: Plane) -> FlatPoint, relative a {
+        plane | (a ^ b ^ Infinity)
+    }
+    /// The reciprocal vector of the first vertex of a facet, times `|Phi|²` = 4 times the squared area, relative to that
+    /// vertex: `-(ninf ^ (b ^ c)) | Phi` with `Phi = a ^ b ^ c ^ ninf`. Its inner product with a normalised point of the
+    /// facet's plane is the point's barycentric coordinate (report, equations 43 to 46, with the sign corrected).
+    fn reciprocal_relative(a: Point, b: Point, c: Point) -> Round, relative a {
+        -((Infinity ^ (b ^ c)) | (a ^ b ^ c ^ Infinity))
+    }
+    /// The image of a point in a plane, `pi X pi`, normalised.
+    fn reflect_in_plane(x: Point, plane: Plane) -> Point, local x {
+        (plane * x * plane).normalised()
+    }
+    /// The image of a point in a line, `L X L`, relative to the point, of weight minus the line's norm squared.
+    fn reflect_in_line_relative(x: Point, line: Line) -> Round, relative x {
+        (line * x * line).grade(1)
+    }
+    /// The inverse of a point in a circle, `K X K`, relative to the point, of any weight.
+    fn reflect_in_circle_relative(x: Point, circle: Circle) -> Round, relative x {
+        (circle * x * circle).grade(1)
+    }
+    /// The centre of a circle, as a point of any weight: the image of infinity, `K ninf K`.
+    fn circle_centre(circle: Circle) -> Round {
+        (circle * Infinity * circle).grade(1)
+    }
+    /// The inverse of a point in a sphere, `s X s`, normalised.
+    fn reflect_in_sphere(x: Point, sphere: Sphere) -> Point, local x {
+        (sphere * x * sphere).normalised()
     }
 }

@@ -1,1 +1,20 @@
-//! geometry
+//! Points, flats and rounds of Euclidean space on the conformal algebra; meshes and what is computed from them.
+//!
+//! Generated kernels are unchecked; here they are wrapped: a construction either succeeds or names the degenerate case
+//! ([`Degenerate`]). Every round is built in the local frame of one of its own points ("difference first"). Geometry
+//! knows no time.
+
+mod degenerate;
+mod facet;
+mod flats;
+mod meets;
+mod points;
+mod reflections;
+mod rounds;
+
+pub use degenerate::Degenerate;
+pub use facet::{Crossing, Facet};
+pub use flats::{line_through, plane_through};
+pub use meets::{SpheresMeet, line_meets_plane, planes_meet, spheres_meet};
+pub use reflections::{closest_point_on_line, invert_in_sphere, reflect_in_line, reflect_in_plane};
+pub use rounds::{CircleParts, circle_parts, circle_through, inside_is_negative, sphere_through, sphere_through_pair};
