@@ -8,6 +8,10 @@ pub mod algebra;
 pub use ga_macros::{__algebra_with_base, algebra};
 
 pub mod geometry;
+#[cfg(feature = "physics")]
+pub mod ode;
+#[cfg(feature = "physics")]
+pub mod rigid;
 pub mod versor;
 #[cfg(feature = "cli")]
 pub mod io;

@@ -1,0 +1,45 @@
+//! Energy and momenta of all bodies together.
+
+use super::{Bodies, Inertia};
+use crate::algebra::Real;
+use crate::algebra::g3::{Bivector, Vector};
+
+/// Sums over all movable bodies, in f64. Angular momentum is about the origin, orbital part included.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Totals {
+    /// Kinetic energy, J.
+    pub kinetic: f64,
+    /// Potential energy in uniform gravity, J, zero at the origin.
+    pub potential: f64,
+    /// Momentum, kg m/s.
+    pub momentum: Vector<f64>,
+    /// Angular momentum about the origin, kg m²/s.
+    pub angular_momentum: Bivector<f64>,
+    /// Sum of |p|, the scale of momentum drift.
+    pub momentum_scale: f64,
+    /// Sum of |L|, the scale of angular momentum drift.
+    pub angular_momentum_scale: f64,
+}
+
+/// Sums over all movable bodies.
+#[must_use]
+pub fn totals<T: Real>(bodies: &Bodies<T>, inertias: &[Inertia<T>], gravity: Vector<T>) -> Totals {
+    let mut totals = Totals::default();
+    let gravity = gravity.map(Real::to_f64);
+    for (body_idx, inertia) in inertias.iter().enumerate().filter(|(_, inertia)| inertia.inv_mass > T::zero()) {
+        let momentum = bodies.momentum[body_idx].map(Real::to_f64);
+        let spin = bodies.angular_momentum[body_idx].map(Real::to_f64);
+        let omega = bodies.omega_world(body_idx, inertia).map(Real::to_f64);
+        let position = bodies.position[body_idx].position();
+        let about_origin = spin + (position ^ momentum);
+        // The scalar product of bivectors is minus that of their components.
+        let spin_energy = -(spin | omega) * 0.5;
+        totals.kinetic += 0.5 * momentum.norm_sq() / inertia.mass.to_f64() + spin_energy;
+        totals.potential -= inertia.mass.to_f64() * (gravity | position);
+        totals.momentum += momentum;
+        totals.angular_momentum += about_origin;
+        totals.momentum_scale += momentum.norm_sq().sqrt();
+        totals.angular_momentum_scale += about_origin.norm_sq().sqrt();
+    }
+    totals
+}
