@@ -7,13 +7,15 @@ pub mod algebra;
 
 pub use ga_macros::{__algebra_with_base, algebra};
 
+#[cfg(feature = "physics")]
+pub mod collision;
 pub mod geometry;
+#[cfg(feature = "cli")]
+pub mod io;
 #[cfg(feature = "physics")]
 pub mod ode;
 #[cfg(feature = "physics")]
 pub mod rigid;
-pub mod versor;
-#[cfg(feature = "cli")]
-pub mod io;
 #[cfg(feature = "cli")]
 pub mod scene;
+pub mod versor;

@@ -29,8 +29,12 @@ impl fmt::Display for Degenerate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::CoincidentPoints => "two of the points coincide within rounding; give distinct points",
-            Self::CollinearPoints => "the three points lie on one line within rounding; give points of a proper triangle",
-            Self::CoplanarPoints => "the four points lie in one plane within rounding; give corners of a proper tetrahedron",
+            Self::CollinearPoints => {
+                "the three points lie on one line within rounding; give points of a proper triangle"
+            }
+            Self::CoplanarPoints => {
+                "the four points lie in one plane within rounding; give corners of a proper tetrahedron"
+            }
             Self::ParallelLineAndPlane => "the line is parallel to the plane; it has no single point in common with it",
             Self::ParallelPlanes => "the planes are parallel; they have no single line in common",
             Self::PointAtInfinity => "the vector has no weight: it is no finite point",

@@ -70,11 +70,16 @@ impl<T: Real> Facet<T> {
         }
         let fraction = above / (above - below);
         // The meet `pi | (start ^ end ^ ninf)` in the frame of `start`; its weight is `above - below`.
-        let local = Plane::with_normal_through(self.plane.normal(), Point::from(start.displacement_to(self.corners[0])));
+        let local =
+            Plane::with_normal_through(self.plane.normal(), Point::from(start.displacement_to(self.corners[0])));
         let span = Point::from(start.displacement_to(end));
         let meet = cga::line_meets_plane_relative(Point::origin(), span, local).point().ok()?;
         let point = start.moved(meet.position());
         let barycentric = self.barycentric(point);
-        barycentric.iter().all(|coordinate| *coordinate >= T::zero()).then_some(Crossing { point, fraction, barycentric })
+        barycentric.iter().all(|coordinate| *coordinate >= T::zero()).then_some(Crossing {
+            point,
+            fraction,
+            barycentric,
+        })
     }
 }

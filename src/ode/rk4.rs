@@ -24,7 +24,8 @@ impl<T: Real, S: State<T>> Rk4<S, T> {
         let half = h_s * T::ratio(1, 2);
         let middle = t_s + half.to_f64();
         rhs(t_s, state, &mut self.rates[0]);
-        for (index, (step, time)) in [(half, middle), (half, middle), (h_s, t_s + h_s.to_f64())].into_iter().enumerate() {
+        for (index, (step, time)) in [(half, middle), (half, middle), (h_s, t_s + h_s.to_f64())].into_iter().enumerate()
+        {
             self.stage.assign(state);
             self.stage.add_scaled(step, &self.rates[index]);
             rhs(time, &self.stage, &mut self.rates[index + 1]);

@@ -48,7 +48,8 @@ impl<T: Real> Inertia<T> {
         let inverse = matrix.cholesky().map(|factor| factor.inverse());
         let inverse = inverse.filter(|inverse| inverse.iter().all(|x| x.is_finite()));
         let inverse = inverse.ok_or(BodyError::SingularInertia(inertia_kg_m2))?;
-        let cast = |f: &dyn Fn(usize, usize) -> f64| core::array::from_fn(|r| core::array::from_fn(|c| T::from_f64(f(r, c))));
+        let cast =
+            |f: &dyn Fn(usize, usize) -> f64| core::array::from_fn(|r| core::array::from_fn(|c| T::from_f64(f(r, c))));
         Ok(Self {
             mass: T::from_f64(mass_kg),
             inv_mass: T::from_f64(1.0 / mass_kg),

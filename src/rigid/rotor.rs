@@ -36,7 +36,9 @@ pub enum AdvanceError {
         source: NotARotor,
     },
     /// Too fast a spin for the step.
-    #[error("at {time_s} s body {body_idx} spins at {omega_rad_s:e} rad/s, too fast for a step of {dt_s} s: take a smaller `dt_s`")]
+    #[error(
+        "at {time_s} s body {body_idx} spins at {omega_rad_s:e} rad/s, too fast for a step of {dt_s} s: take a smaller `dt_s`"
+    )]
     Spin {
         /// The body.
         body_idx: usize,

@@ -32,11 +32,8 @@ impl<T: Real> Rotor<T> {
     pub fn exp(b: Bivector<T>) -> Self {
         let angle = b.norm_sq().sqrt();
         let (sin, cos) = angle.sin_cos();
-        let sinc = if angle < T::from_f64(SERIES_BELOW) {
-            T::one() - angle * angle * T::ratio(1, 6)
-        } else {
-            sin / angle
-        };
+        let sinc =
+            if angle < T::from_f64(SERIES_BELOW) { T::one() - angle * angle * T::ratio(1, 6) } else { sin / angle };
         Self::new(cos, b.e23 * sinc, b.e31 * sinc, b.e12 * sinc)
     }
 

@@ -1,0 +1,44 @@
+//! A contact between two bodies.
+
+use crate::algebra::Real;
+use crate::algebra::cga::Point;
+use crate::algebra::g3::{Bivector, Vector};
+use crate::rigid::{Bodies, Inertia};
+
+/// A point at which two bodies touch. Directions and arms are world-oriented; arms are relative to the centres of mass,
+/// so that they keep their digits far from the origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact<T> {
+    /// First body.
+    pub a: usize,
+    /// Second body.
+    pub b: usize,
+    /// From the centre of mass of `a` to the contact, m.
+    pub arm_a: Vector<T>,
+    /// From the centre of mass of `b` to the contact, m.
+    pub arm_b: Vector<T>,
+    /// Unit normal from `a` to `b`.
+    pub normal: Vector<T>,
+    /// Signed gap along the normal, m; negative on overlap.
+    pub separation: T,
+}
+
+impl<T: Real> Contact<T> {
+    /// The contact in the world, m.
+    #[must_use]
+    pub fn point(&self, bodies: &Bodies<T>) -> Point<f64> {
+        bodies.position[self.a].moved(self.arm_a.map(Real::to_f64))
+    }
+
+    /// `n . (v_a - v_b)` at the contact, m/s: positive when the bodies approach.
+    #[must_use]
+    pub fn approach_speed(&self, bodies: &Bodies<T>, inertias: &[Inertia<T>]) -> T {
+        let at = |body_idx: usize, arm: Vector<T>| {
+            let inertia = &inertias[body_idx];
+            let omega: Bivector<T> = bodies.omega_world(body_idx, inertia);
+            // v = x . Omega
+            bodies.velocity(body_idx, inertia) + (arm | omega)
+        };
+        self.normal | (at(self.a, self.arm_a) - at(self.b, self.arm_b))
+    }
+}

@@ -1,0 +1,185 @@
+//! Contacts between two bodies: vertices within bodies, then edges through facets (report, Figs. 7 and 10).
+//!
+//! The second body is brought into the frame of the first by the relative motor. If a vertex of one lies in the other,
+//! the contacts are those vertices, with the normals of the nearest facets. Otherwise an edge that passes through a
+//! facet has passed through an edge: the sharp edge nearest to the crossing, found by reflecting the crossing in each
+//! edge's line; the normal is common to the two edges.
+//!
+//! Meant for bodies that have only just met: the time of impact is found first, so that depths are tiny. Bodies of
+//! which one swallows the other whole are seen (all its vertices lie within), but get the normals of nearest facets.
+
+use super::{Contact, Polyhedron, balls_overlap};
+use crate::algebra::Real;
+use crate::algebra::cga::{Infinity, Line, Motor, Plane, Point};
+use crate::algebra::g3::Vector;
+use crate::geometry::closest_point_on_line;
+use crate::rigid::Bodies;
+use alloc::vec::Vec;
+
+/// What a body is to collision tests.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Collider<T> {
+    /// Nothing: it passes through everything.
+    None,
+    /// A convex polyhedron in the body frame.
+    Convex(Polyhedron<T>),
+    /// The half-space behind a plane through the body's origin with this unit normal, body frame.
+    HalfSpace(Vector<T>),
+}
+
+/// Detects contacts; holds scratch storage.
+#[derive(Clone, Debug, Default)]
+pub struct NarrowPhase<T> {
+    moved: Vec<Point<T>>,
+}
+
+impl<T: Real> NarrowPhase<T> {
+    /// Appends the contacts of a pair; returns whether there are any.
+    pub fn contacts(
+        &mut self,
+        bodies: &Bodies<T>,
+        colliders: &[Collider<T>],
+        a: usize,
+        b: usize,
+        found: &mut Vec<Contact<T>>,
+    ) -> bool {
+        let before = found.len();
+        match (&colliders[a], &colliders[b]) {
+            (Collider::Convex(first), Collider::Convex(second)) => {
+                self.convex_pair(bodies, (a, first), (b, second), found)
+            }
+            (Collider::Convex(body), Collider::HalfSpace(normal)) => half_space(bodies, (a, body), (b, *normal), found),
+            (Collider::HalfSpace(normal), Collider::Convex(body)) => half_space(bodies, (b, body), (a, *normal), found),
+            _ => {}
+        }
+        found.len() > before
+    }
+
+    fn convex_pair(
+        &mut self,
+        bodies: &Bodies<T>,
+        (a, first): (usize, &Polyhedron<T>),
+        (b, second): (usize, &Polyhedron<T>),
+        found: &mut Vec<Contact<T>>,
+    ) {
+        let pose = bodies.relative_pose(a, b);
+        if !balls_overlap(first.bound, pose.apply(second.bound)) {
+            return;
+        }
+        let before = found.len();
+        let in_first = Frame { bodies, host: (a, first), guest: (b, second), pose };
+        self.move_vertices(&in_first);
+        in_first.vertices_within(&self.moved, found);
+        let in_second = Frame { bodies, host: (b, second), guest: (a, first), pose: pose.rev() };
+        self.move_vertices(&in_second);
+        in_second.vertices_within(&self.moved, found);
+        if found.len() > before {
+            return;
+        }
+        in_second.edges_through(&self.moved, found);
+        self.move_vertices(&in_first);
+        in_first.edges_through(&self.moved, found);
+    }
+
+    fn move_vertices(&mut self, frame: &Frame<'_, T>) {
+        self.moved.clear();
+        self.moved.extend(frame.guest.1.vertices.iter().map(|vertex| frame.pose.apply(*vertex)));
+    }
+}
+
+/// A pair of bodies seen from the frame of one of them, the host.
+struct Frame<'a, T: Real> {
+    bodies: &'a Bodies<T>,
+    host: (usize, &'a Polyhedron<T>),
+    guest: (usize, &'a Polyhedron<T>),
+    /// From the guest's frame to the host's.
+    pose: Motor<T>,
+}
+
+impl<T: Real> Frame<'_, T> {
+    /// A contact given in the host's frame, the normal pointing out of the host. `a` is always the lower index.
+    fn contact(&self, point: Point<T>, outward: Vector<T>, separation: T) -> Contact<T> {
+        let (host, guest) = (self.host.0, self.guest.0);
+        let rotor = self.bodies.rotor[host];
+        let arm_host = rotor.apply(point.position());
+        let between = self.bodies.position[host].displacement_to(self.bodies.position[guest]).map(T::from_f64);
+        let arm_guest = arm_host - between;
+        let normal = rotor.apply(outward);
+        if host < guest {
+            Contact { a: host, b: guest, arm_a: arm_host, arm_b: arm_guest, normal, separation }
+        } else {
+            Contact { a: guest, b: host, arm_a: arm_guest, arm_b: arm_host, normal: -normal, separation }
+        }
+    }
+
+    fn vertices_within(&self, moved: &[Point<T>], found: &mut Vec<Contact<T>>) {
+        for vertex in moved.iter().filter(|vertex| !self.host.1.excludes(**vertex)) {
+            if let Some((height, facet)) = self.host.1.height(*vertex) {
+                found.push(self.contact(*vertex, facet.plane.normal(), height));
+            }
+        }
+    }
+
+    fn edges_through(&self, moved: &[Point<T>], found: &mut Vec<Contact<T>>) {
+        for edge in &self.guest.1.edges {
+            let [start, end] = edge.map(|index| moved[index]);
+            for facet in &self.host.1.facets {
+                if let Some(crossing) = facet.crossing(start, end) {
+                    found.extend(self.edge_pair(start, end, crossing.point, facet.plane));
+                }
+            }
+        }
+    }
+
+    /// The contact of the guest's edge with the host's sharp edge that is nearest to the crossing.
+    fn edge_pair(&self, start: Point<T>, end: Point<T>, crossing: Point<T>, plane: Plane<T>) -> Option<Contact<T>> {
+        let host = self.host.1;
+        let nearest = host.edges.iter().filter_map(|edge| {
+            let [from, to] = edge.map(|index| host.vertices[index]);
+            let line: Line<T> = from ^ to ^ Infinity;
+            let foot = closest_point_on_line(crossing, line).ok()?;
+            Some((crossing.distance_sq_to(foot), from, to))
+        });
+        let (_, from, to) = nearest.reduce(|best, next| if next.0 < best.0 { next } else { best })?;
+        let (edge, other) = (from.displacement_to(to), start.displacement_to(end));
+        let plane_of_both = edge ^ other;
+        let norm = plane_of_both.norm_sq().sqrt();
+        // Parallel edges have no common normal of their own; the facet's is one that both share.
+        let parallel = !(norm > T::ratio(8, 1) * T::EPSILON * (edge.norm_sq() * other.norm_sq()).sqrt());
+        let mut normal = if parallel {
+            plane.normal()
+        } else {
+            Vector::new(plane_of_both.e23, plane_of_both.e31, plane_of_both.e12) / norm
+        };
+        // Out of the host: its centre of mass, the origin of this frame, lies behind every supporting plane.
+        if (normal | from.position()) < T::zero() {
+            normal = -normal;
+        }
+        Some(self.contact(crossing, normal, normal | from.displacement_to(start)))
+    }
+}
+
+/// Vertices behind a plane. The height of the body's centre is formed in f64.
+fn half_space<T: Real>(
+    bodies: &Bodies<T>,
+    (body_idx, body): (usize, &Polyhedron<T>),
+    (plane_idx, normal): (usize, Vector<T>),
+    found: &mut Vec<Contact<T>>,
+) {
+    let normal = bodies.rotor[plane_idx].apply(normal);
+    let from_plane = bodies.position[plane_idx].displacement_to(bodies.position[body_idx]);
+    let height = T::from_f64(normal.map(Real::to_f64) | from_plane);
+    let normal_body = bodies.rotor[body_idx].rev().apply(normal);
+    for vertex in &body.vertices {
+        let separation = height + (normal_body | vertex.position());
+        if separation < T::zero() {
+            let arm = bodies.rotor[body_idx].apply(vertex.position());
+            let from_plane = from_plane.map(T::from_f64) + arm;
+            found.push(if body_idx < plane_idx {
+                Contact { a: body_idx, b: plane_idx, arm_a: arm, arm_b: from_plane, normal: -normal, separation }
+            } else {
+                Contact { a: plane_idx, b: body_idx, arm_a: from_plane, arm_b: arm, normal, separation }
+            });
+        }
+    }
+}
