@@ -18,4 +18,6 @@ pub mod ode;
 pub mod rigid;
 #[cfg(feature = "cli")]
 pub mod scene;
+#[cfg(feature = "physics")]
+pub mod simulation;
 pub mod versor;
