@@ -5,9 +5,17 @@
 //! knows no time.
 
 mod degenerate;
+mod disjoint_sets;
+mod double_double;
 mod facet;
 mod flats;
+pub mod mass_properties;
 mod meets;
+pub mod mesh;
+pub mod mesh_checks;
+mod mesh_convexity;
+mod mesh_findings;
+mod mesh_topology;
 mod points;
 mod reflections;
 mod rounds;
