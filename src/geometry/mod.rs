@@ -7,6 +7,7 @@
 mod degenerate;
 mod disjoint_sets;
 mod double_double;
+pub mod enclosing_sphere;
 mod facet;
 mod flats;
 pub mod mass_properties;
