@@ -7,6 +7,8 @@ pub mod algebra;
 
 pub use ga_macros::{__algebra_with_base, algebra};
 
+#[cfg(feature = "cli")]
+pub mod cli;
 #[cfg(feature = "physics")]
 pub mod collision;
 pub mod geometry;

@@ -1,1 +1,5 @@
 //! io
+
+pub mod mesh_file;
+mod obj;
+mod stl;
