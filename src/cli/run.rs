@@ -1,0 +1,255 @@
+//! `ga-physics run`: load, build, simulate with a progress bar, write the files, print the table.
+
+use super::Failure;
+use crate::algebra::Real;
+use crate::io::files::{WriteError, write_whole};
+use crate::io::html::{self, Playback};
+use crate::io::summary::{self, Settings, Summary};
+use crate::io::tables;
+use crate::rigid::Bodies;
+use crate::rigid::rotor::MAX_TURN_RAD;
+use crate::scene::build::{Built, Look, build};
+use crate::scene::description::Scalar;
+use crate::scene::{Rejected, Scene, SceneSource, load, plan};
+use crate::simulation::{Event, EventKind, Record, SimulationError, World, state_hash};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// What to run, and how.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The scene file.
+    pub scene: PathBuf,
+    /// Where the files go; default `out/<scene>`.
+    pub out: Option<PathBuf>,
+    /// `--set` texts.
+    pub sets: Vec<String>,
+    /// Nothing on the terminal but errors.
+    pub quiet: bool,
+}
+
+/// Runs a scene.
+///
+/// # Errors
+/// The user's input is wrong; the run failed, and what was recorded is written.
+pub fn run(options: &Options) -> Result<(), Failure> {
+    let (scene, source) = load(&options.scene, &options.sets).map_err(Failure::rejected)?;
+    match scene.solver.scalar {
+        Scalar::F64 => run_in::<f64>(options, &scene, source),
+        Scalar::F32 => run_in::<f32>(options, &scene, source),
+    }
+}
+
+fn run_in<T: Real>(options: &Options, scene: &Scene, source: SceneSource) -> Result<(), Failure> {
+    let built = match build::<T>(scene, &source) {
+        Ok(built) => built,
+        Err(diagnostics) => return Err(Failure::rejected(Rejected { source, diagnostics })),
+    };
+    let names: Vec<String> = scene.body.iter().map(|body| body.name.get_ref().clone()).collect();
+    let Built { setup, looks } = built;
+    let out = options.out.clone().unwrap_or_else(|| Path::new("out").join(scene_name(&options.scene)));
+    // Before the run: a directory that cannot be made should not cost a simulation.
+    std::fs::create_dir_all(&out).map_err(|source| WriteError { path: out.clone(), source })?;
+    let bar = progress(options.quiet, plan::steps(scene));
+    let started = Instant::now();
+    let mut world = World::new(setup);
+    let mut record = Record::default();
+    let (steps, outcome) = simulate(&mut world, &mut record, scene, &bar);
+    let wall_s = started.elapsed().as_secs_f64();
+    bar.finish_and_clear();
+    let failure = outcome.err().map(|error| explain(&error, &names));
+    let summary = summarise(options, scene, &source, &world, &record, steps, wall_s, failure.clone());
+    write_files(&out, &names, &looks, &record, &summary)?;
+    if !options.quiet {
+        print!("{}", table(&summary, &out));
+    }
+    match failure {
+        Some(reason) => Err(Failure::run(format!("{reason}\nwhat was recorded until then is in {}", out.display()))),
+        None => Ok(()),
+    }
+}
+
+/// The name of a scene: its file's, without the extension.
+pub(super) fn scene_name(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy().into_owned())
+}
+
+fn progress(quiet: bool, steps: u64) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(steps), if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() });
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {pos}/{len} steps  {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+/// Makes all steps; returns how many, and how it ended. The times are multiples of dt, so that they do not drift.
+fn simulate<T: Real>(world: &mut World<T>, record: &mut Record, scene: &Scene, bar: &ProgressBar) -> (u64, Result<(), SimulationError>) {
+    let (dt_s, duration_s) = (*scene.dt_s.get_ref(), *scene.duration_s.get_ref());
+    let interval_s = scene.record_hz.as_ref().map_or(0.0, |hz| 1.0 / hz.get_ref());
+    let steps = plan::steps(scene);
+    let mut frames = 1_u64;
+    record.observe(world, true);
+    for step in 1..=steps {
+        #[expect(clippy::cast_precision_loss, reason = "steps are at most MAX_STEPS, far below 2^53")]
+        let end_s = if step == steps { duration_s } else { step as f64 * dt_s };
+        let mut events: Vec<Event> = Vec::new();
+        let outcome = world.advance_to(end_s, &mut events);
+        record.events.append(&mut events);
+        // A frame is due at each multiple of the interval; rounding must not push one to the next step.
+        #[expect(clippy::cast_precision_loss, reason = "as above")]
+        let due = end_s >= frames as f64 * interval_s - 0.5 * f64::EPSILON * end_s.max(dt_s) * 8.0;
+        frames += u64::from(due);
+        record.observe(world, due || step == steps || outcome.is_err());
+        if let Err(error) = outcome {
+            return (step - 1, Err(error));
+        }
+        bar.inc(1);
+    }
+    (steps, Ok(()))
+}
+
+fn explain(error: &SimulationError, names: &[String]) -> String {
+    match error {
+        SimulationError::StaysInContact { a, b, time_s } => format!(
+            "bodies `{}` and `{}` stay in contact from {time_s:.6} s on: their bounces follow one another without end, and \
+             resting contact is not modelled; end the run before (`duration_s`), or raise `contact.restitution`",
+            names[*a], names[*b]
+        ),
+        SimulationError::Advance(error) => error.to_string(),
+    }
+}
+
+#[expect(clippy::too_many_arguments, reason = "a summary is made of everything there is")]
+fn summarise<T: Real>(
+    options: &Options,
+    scene: &Scene,
+    source: &SceneSource,
+    world: &World<T>,
+    record: &Record,
+    steps: u64,
+    wall_s: f64,
+    failure: Option<String>,
+) -> Summary {
+    let conserved = Conserved::of(scene, record);
+    let drifts = record.drifts();
+    Summary {
+        scene: scene_name(&options.scene),
+        bodies: scene.body.len(),
+        particles: 0,
+        steps,
+        events: record.events.len(),
+        sim_s: world.time_s(),
+        wall_s,
+        real_time_factor: world.time_s() / wall_s,
+        energy_drift_rel: drifts.energy.filter(|_| conserved.energy),
+        momentum_drift_rel: drifts.momentum.filter(|_| conserved.momentum),
+        angular_momentum_drift_rel: drifts.angular_momentum.filter(|_| conserved.angular_momentum),
+        max_penetration_m: record.max_penetration(),
+        max_violation_m: None,
+        state_bytes_per_body: Bodies::<T>::bytes_per_body(),
+        state_hash: format!("{:016x}", state_hash(world.bodies())),
+        failure,
+        settings: Settings {
+            duration_s: *scene.duration_s.get_ref(),
+            dt_s: *scene.dt_s.get_ref(),
+            record_hz: scene.record_hz.as_ref().map(|hz| *hz.get_ref()),
+            formulation: "rotor".into(),
+            scalar: if size_of::<T>() == size_of::<f64>() { "f64".into() } else { "f32".into() },
+            method: "rk4".into(),
+            max_turn_rad: MAX_TURN_RAD,
+            substeps: world.substeps(),
+            gravity_m_s2: scene.gravity_m_s2.get_ref().0,
+            restitution: *scene.contact.restitution.get_ref(),
+            overrides: source.overrides().to_vec(),
+        },
+    }
+}
+
+/// What the scene conserves: nothing from outside may change it.
+struct Conserved {
+    energy: bool,
+    momentum: bool,
+    angular_momentum: bool,
+}
+
+impl Conserved {
+    fn of(scene: &Scene, record: &Record) -> Self {
+        let free = scene.force.is_empty();
+        let impacts = || record.events.iter().filter(|event| event.kind == EventKind::Impact);
+        let elastic = *scene.contact.restitution.get_ref() >= 1.0 || impacts().count() == 0;
+        let fixed = |index: usize| scene.body[index].fixed;
+        let struck_fixed = impacts().any(|event| fixed(event.a) || fixed(event.b));
+        let isolated = free && !struck_fixed && scene.gravity_m_s2.get_ref().0 == [0.0; 3];
+        Self { energy: free && elastic, momentum: isolated, angular_momentum: isolated }
+    }
+}
+
+fn write_files(out: &Path, names: &[String], looks: &[Look], record: &Record, summary: &Summary) -> Result<(), WriteError> {
+    write_whole(&out.join("trajectory.csv"), |file| tables::trajectory(file, names, &record.frames))?;
+    write_whole(&out.join("energy.csv"), |file| tables::energy(file, &record.energies))?;
+    write_whole(&out.join("events.csv"), |file| tables::events(file, names, &record.events))?;
+    let page = html::render(&playback(&summary.scene, names, looks, record));
+    write_whole(&out.join("run.html"), |file| file.write_all(page.as_bytes()))?;
+    // Last: a summary says that all the files are there.
+    write_whole(&out.join("summary.json"), |file| summary::write(file, summary))
+}
+
+fn playback<'a>(scene: &'a str, names: &[String], looks: &[Look], record: &Record) -> Playback<'a> {
+    let bodies = names.iter().zip(looks).enumerate().map(|(index, (name, look))| html::BodyView {
+        name: name.clone(),
+        fixed: record.frames.first().is_some_and(|first| record.frames.iter().all(|frame| frame.bodies[index] == first.bodies[index])),
+        shape: match look {
+            Look::Mesh(mesh) => html::Shape::Mesh {
+                vertices: mesh.vertices.iter().map(|vertex| <[f64; 3]>::from(*vertex)).collect(),
+                triangles: mesh.triangles.clone(),
+            },
+            Look::Plane(normal) => html::Shape::Plane { normal: <[f64; 3]>::from(*normal) },
+            Look::Ellipsoid(semi_axes) => html::Shape::Ellipsoid { semi_axes: *semi_axes },
+        },
+    });
+    let pose = |body: &crate::simulation::BodySample| {
+        let ([x, y, z], [s, e23, e31, e12]) = (<[f64; 3]>::from(body.position), <[f64; 4]>::from(body.rotor));
+        [x, y, z, s, e23, e31, e12]
+    };
+    let mark = |event: &Event| html::Mark {
+        time_s: event.time_s,
+        a: names[event.a].clone(),
+        b: names[event.b].clone(),
+        point: <[f64; 3]>::from(event.point),
+        normal: <[f64; 3]>::from(event.normal),
+        impulse_n_s: event.impulse,
+        kind: event.kind.name().into(),
+    };
+    Playback {
+        scene,
+        bodies: bodies.collect(),
+        times_s: record.frames.iter().map(|frame| frame.time_s).collect(),
+        poses: record.frames.iter().map(|frame| frame.bodies.iter().map(pose).collect()).collect(),
+        marks: record.events.iter().map(mark).collect(),
+        energy: record.energies.iter().map(|sample| html::EnergySample {
+            time_s: sample.time_s,
+            kinetic_j: sample.totals.kinetic,
+            potential_j: sample.totals.potential,
+            total_j: sample.totals.kinetic + sample.totals.potential,
+        }).collect(),
+    }
+}
+
+fn table(summary: &Summary, out: &Path) -> String {
+    let drift = |value: Option<f64>| value.map_or_else(|| "not conserved here".into(), |value| format!("{value:.1e}"));
+    let rows = [
+        ("simulated", format!("{} s in {:.3} s, {:.0} times real time", summary.sim_s, summary.wall_s, summary.real_time_factor)),
+        ("bodies", summary.bodies.to_string()),
+        ("steps", format!("{} ({} substeps)", summary.steps, summary.settings.substeps)),
+        ("events", summary.events.to_string()),
+        ("energy drift", drift(summary.energy_drift_rel)),
+        ("momentum drift", drift(summary.momentum_drift_rel)),
+        ("ang. mom. drift", drift(summary.angular_momentum_drift_rel)),
+        ("max penetration", format!("{:.1e} m", summary.max_penetration_m)),
+        ("state hash", summary.state_hash.clone()),
+    ];
+    let mut text: String = rows.iter().map(|(name, value)| format!("{name:<16} {value}\n")).collect();
+    text += &format!("open             {}\n", out.join("run.html").display());
+    text
+}

@@ -1,0 +1,80 @@
+//! `summary.json`: the figures of a run.
+
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// The figures of a run. A drift is null where the scene does not conserve the quantity, or nothing moves.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// The scene's name.
+    pub scene: String,
+    /// Bodies.
+    pub bodies: usize,
+    /// Particles.
+    pub particles: usize,
+    /// Steps made.
+    pub steps: u64,
+    /// Events.
+    pub events: usize,
+    /// Simulated time, s.
+    pub sim_s: f64,
+    /// Time that the simulation took, s, without reading and writing.
+    pub wall_s: f64,
+    /// Simulated over wall time.
+    pub real_time_factor: f64,
+    /// max|E - E0| / max(kinetic energy).
+    pub energy_drift_rel: Option<f64>,
+    /// max|P - P0| / max(sum |p_i|).
+    pub momentum_drift_rel: Option<f64>,
+    /// max|L - L0| / max(sum |L_i|), about the origin.
+    pub angular_momentum_drift_rel: Option<f64>,
+    /// The deepest overlap at an event, m.
+    pub max_penetration_m: f64,
+    /// The largest constraint violation, m; null without constraints.
+    pub max_violation_m: Option<f64>,
+    /// State of one body, bytes.
+    pub state_bytes_per_body: usize,
+    /// FNV-1a of the final state, hexadecimal.
+    pub state_hash: String,
+    /// Why the run ended early; absent if it did not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failure: Option<String>,
+    /// What was set.
+    pub settings: Settings,
+}
+
+/// What was set, and what followed from it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Settings {
+    /// Duration asked for, s.
+    pub duration_s: f64,
+    /// Step, s.
+    pub dt_s: f64,
+    /// Frames a second of simulated time; null: every step.
+    pub record_hz: Option<f64>,
+    /// The formulation of rigid motion.
+    pub formulation: String,
+    /// The scalar.
+    pub scalar: String,
+    /// The integrator.
+    pub method: String,
+    /// The largest turn of a body in one substep, rad.
+    pub max_turn_rad: f64,
+    /// Substeps of the integrator, those of the search for impacts included.
+    pub substeps: u64,
+    /// Gravity, m/s².
+    pub gravity_m_s2: [f64; 3],
+    /// Restitution.
+    pub restitution: f64,
+    /// `--set` texts.
+    pub overrides: Vec<String>,
+}
+
+/// Writes the summary, indented.
+///
+/// # Errors
+/// The output fails.
+pub fn write(out: &mut dyn Write, summary: &Summary) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, summary)?;
+    writeln!(out)
+}
