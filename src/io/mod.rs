@@ -1,5 +1,9 @@
-//! io
+//! Import of meshes, record and export formats. It decides nothing: it reads and writes what it is given.
 
+pub mod files;
+pub mod html;
 pub mod mesh_file;
 mod obj;
 mod stl;
+pub mod summary;
+pub mod tables;

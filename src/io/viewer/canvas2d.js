@@ -1,0 +1,165 @@
+// The fallback renderer on a 2D canvas: facets sorted from far to near (painter's algorithm).
+// Long facets are cut up first, since one depth for a long facet puts it before or behind too much.
+
+/** Facets all bodies together may have after cutting up: above this a picture takes longer than a frame. */
+const FACET_BUDGET = 24000;
+
+class Canvas2dRenderer {
+  constructor(canvas, stage) {
+    this.context = canvas.getContext("2d");
+    if (!this.context) throw new Error("neither WebGL2 nor a 2D canvas is available");
+    this.name = "canvas2d";
+    const users = stage.recording.bodies.length || 1;
+    this.shapes = stage.shapes.map((shape) =>
+      shape && !shape.plane ? subdivided(shape, Math.min(stage.radius / 4, shape.radius * 1.5), FACET_BUDGET / users) : shape);
+  }
+
+  draw(scene, view, pixelRatio) {
+    const c = this.context;
+    c.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
+    c.clearRect(0, 0, view.width, view.height);
+    c.lineJoin = "round";
+    const front = (patch) => dot(sub(view.eye, patch.centre), patch.normal) > 0;
+    for (const patch of scene.planes.filter(front)) this.drawPlane(scene, view, patch, true);
+    this.drawBodies(scene, view);
+    for (const patch of scene.planes.filter((p) => !front(p))) this.drawPlane(scene, view, patch, false);
+  }
+
+  drawPlane(scene, view, patch, front) {
+    const c = this.context;
+    const { theme, stage } = scene;
+    const on = (x, y) => add(patch.centre, add(scale(patch.u, x), scale(patch.v, y)));
+    if (patch.solid) {
+      // Rings one on the other: the fill fades towards the rim as the shader's does.
+      const rings = 6;
+      c.fillStyle = css(patch.rgb ?? theme.fixedRgb, planeOpacity(front) / rings);
+      for (let ring = 1; ring <= rings; ring++) {
+        const radius = patch.size * mix(0.45, 0.95, ring / rings);
+        const rim = Array.from({ length: 48 }, (_, k) => on(radius * Math.cos((k * Math.PI) / 24), radius * Math.sin((k * Math.PI) / 24)));
+        this.path([projectPolygon(view, rim)]);
+        c.fill();
+      }
+    }
+    for (const [i, axis] of [[0, (a, b) => on(a, b)], [1, (a, b) => on(b, a)]]) this.drawLines(scene, view, patch, axis, i, stage.gridStep);
+    if (patch.solid && front && takesShadow(patch)) this.drawShadows(scene, view, patch);
+  }
+
+  drawLines(scene, view, patch, place, i, gap) {
+    const c = this.context;
+    const [r, g, b, a] = scene.theme.gridRgba;
+    const pieces = 12;
+    const first = Math.ceil((patch.phase[i] - patch.size) / gap);
+    for (let k = first; k * gap - patch.phase[i] <= patch.size; k++) {
+      const x = k * gap - patch.phase[i];
+      const half = Math.sqrt(Math.max(patch.size ** 2 - x ** 2, 0));
+      for (let piece = 0; piece < pieces; piece++) {
+        const [y0, y1] = [mix(-half, half, piece / pieces), mix(-half, half, (piece + 1) / pieces)];
+        const rim = Math.hypot(x, (y0 + y1) / 2) / patch.size;
+        const ends = projectPolygon(view, [place(x, y0), place(x, y1)]);
+        if (ends.length < 2) continue;
+        const t = clamp((rim - 0.45) / 0.55, 0, 1);
+        c.strokeStyle = css([r, g, b], a * (k % 10 === 0 ? 1 : 0.55) * (1 - t * t * (3 - 2 * t)));
+        c.lineWidth = 1;
+        c.beginPath();
+        c.moveTo(ends[0].x, ends[0].y);
+        c.lineTo(ends[1].x, ends[1].y);
+        c.stroke();
+      }
+    }
+  }
+
+  /** One path of all facets that face the light, all wound alike, so that their union is filled once. */
+  drawShadows(scene, view, patch) {
+    const down = (p) => {
+      const height = dot(sub(p, patch.centre), patch.normal);
+      return sub(p, height > 0 ? scale(LIGHT, height / dot(patch.normal, LIGHT)) : scale(patch.normal, height));
+    };
+    const polygons = [];
+    for (const item of scene.items) {
+      const shape = this.shapes[item.shape];
+      shape.corners.forEach((t, i) => {
+        const lit = dot(rotate(item.quaternion, shape.normals[i]), LIGHT) > 0;
+        if (!lit && shape.closed) return;
+        const fallen = t.map((p) => down(add(item.position, rotate(item.quaternion, p))));
+        polygons.push(projectPolygon(view, lit ? fallen : fallen.reverse()));
+      });
+    }
+    this.path(polygons);
+    this.context.fillStyle = `rgba(0,0,0,${scene.theme.shadow})`;
+    this.context.fill("nonzero");
+  }
+
+  path(polygons) {
+    const c = this.context;
+    c.beginPath();
+    for (const points of polygons) {
+      if (points.length < 3) continue;
+      points.forEach((p, k) => (k === 0 ? c.moveTo(p.x, p.y) : c.lineTo(p.x, p.y)));
+      c.closePath();
+    }
+  }
+
+  drawBodies(scene, view) {
+    const facets = [];
+    for (const item of scene.items) this.collect(item, view, facets);
+    facets.sort((a, b) => b.depth - a.depth);
+    for (const facet of facets) this.drawFacet(facet);
+  }
+
+  /** The great circles of an ellipsoid, where they are on the near side. */
+  collectCircles(item, shape, view, edge, facets) {
+    for (const ends of shape.lines) {
+      const world = ends.map((p) => add(item.position, rotate(item.quaternion, p)));
+      const outward = rotate(item.quaternion, ends[0].map((x, k) => x / shape.axes[k] ** 2));
+      const toEye = sub(view.eye, world[0]);
+      if (dot(outward, toEye) <= 0) continue;
+      const points = world.map((p) => project(view, p));
+      if (points.some((p) => p.depth < view.near)) continue;
+      // Drawn after the facets that it lies on: nearer by more than a facet's breadth.
+      facets.push({ points, depth: length(toEye) - 0.2 * shape.radius, edge, sharp: [true] });
+    }
+  }
+
+  collect(item, view, facets) {
+    const shape = this.shapes[item.shape];
+    const edge = css(item.selected ? [1, 1, 1] : scale(item.rgb, 0.42), 1);
+    const tint = item.selected ? 0.12 : 0;
+    if (shape.circles) this.collectCircles(item, shape, view, item.selected ? edge : css(scale(item.rgb, 0.72)), facets);
+    shape.corners.forEach((t, i) => {
+      const world = t.map((p) => add(item.position, rotate(item.quaternion, p)));
+      let normal = rotate(item.quaternion, shape.normals[i]);
+      const middle = scale(add(add(world[0], world[1]), world[2]), 1 / 3);
+      const toEye = sub(view.eye, middle);
+      if (dot(normal, toEye) < 0) {
+        if (shape.closed) return; // its own front hides it
+        normal = scale(normal, -1);
+      }
+      const points = world.map((p) => project(view, p));
+      if (points.some((p) => p.depth < view.near)) return;
+      const b = brightness(normal, direction(toEye) ?? normal);
+      const rgb = item.rgb.map((x) => Math.min(x * b + tint, 1));
+      facets.push({ points, depth: length(toEye), fill: css(rgb), edge, sharp: shape.sharp[i] });
+    });
+  }
+
+  drawFacet({ points, fill, edge, sharp }) {
+    const c = this.context;
+    if (fill) {
+      this.path([points]);
+      c.fillStyle = c.strokeStyle = fill;
+      c.fill();
+      c.lineWidth = 0.8; // closes the hair lines that smoothing leaves between neighbours
+      c.stroke();
+    }
+    if (!sharp.includes(true)) return;
+    c.strokeStyle = edge;
+    c.lineWidth = 1.1;
+    c.beginPath();
+    sharp.forEach((is, k) => {
+      if (!is) return;
+      c.moveTo(points[k].x, points[k].y);
+      c.lineTo(points[(k + 1) % 3].x, points[(k + 1) % 3].y);
+    });
+    c.stroke();
+  }
+}

@@ -1,0 +1,161 @@
+// What stands on the stage: colours, light, the extent of the motion, and the list of things to draw at a time.
+
+/** Toward the light, for shading and for the shadows on planes. */
+const LIGHT = direction([0.35, -0.5, 0.9]);
+const PALETTE = ["#3d7eff", "#f2872b", "#21a675", "#d8475f", "#8d6be0", "#13a3b8", "#c99a06", "#d96bb4", "#6f9426", "#a5663d"];
+
+const rgbOfHex = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255);
+
+/** Any CSS colour as [r, g, b, a] in 0..1. */
+function rgbaOfCss(colour) {
+  if (/^#[0-9a-f]{6}$/i.test(colour)) return [...rgbOfHex(colour), 1];
+  const parts = colour.match(/[\d.]+/g).map(Number);
+  return [parts[0] / 255, parts[1] / 255, parts[2] / 255, parts[3] ?? 1];
+}
+
+const css = ([r, g, b], a = 1) => `rgba(${Math.round(255 * r)},${Math.round(255 * g)},${Math.round(255 * b)},${a})`;
+
+/** After the palette, hues by the golden angle, so that neighbours in the list stay apart. */
+function bodyColour(n) {
+  if (n < PALETTE.length) return rgbOfHex(PALETTE[n]);
+  const hue = (n * 137.508) % 360;
+  const [s, l] = [0.58, n % 2 ? 0.48 : 0.6];
+  const part = (k) => l - s * Math.min(l, 1 - l) * clamp(Math.min(((k + hue / 30) % 12) - 3, 9 - ((k + hue / 30) % 12)), -1, 1);
+  return [part(0), part(8), part(4)];
+}
+
+/** Brightness of a facet: sky and ground, the light, and a little from the eye. The shader has the same formula. */
+function brightness(normal, toEye) {
+  return 0.5 + 0.14 * normal[2] + 0.42 * Math.max(0, dot(normal, LIGHT)) + 0.1 * Math.max(0, dot(normal, toEye));
+}
+
+const cssVariable = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+function readTheme() {
+  const theme = { dark: matchMedia("(prefers-color-scheme: dark)").matches };
+  for (const name of ["ink", "muted", "line", "accent", "kinetic", "potential", "total", "contact", "grid", "fixed"]) {
+    theme[name] = cssVariable(`--${name}`);
+  }
+  theme.gridRgba = rgbaOfCss(theme.grid);
+  theme.fixedRgb = rgbaOfCss(theme.fixed).slice(0, 3);
+  theme.shadow = theme.dark ? 0.45 : 0.2;
+  return theme;
+}
+
+/** Positions kept for the first view: a few thousand give the same view as a million. */
+const MAX_VIEW_POINTS = 4000;
+
+/** The box of all poses of the chosen bodies, each widened by its body's radius; null if there is none. */
+function extent(recording, shapes, chosen) {
+  const points = [];
+  const every = Math.ceil((recording.frames.length * recording.bodies.length) / MAX_VIEW_POINTS);
+  let n = 0;
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  recording.bodies.forEach((body, i) => {
+    if (!chosen(body, shapes[body.shape])) return;
+    const radius = shapes[body.shape]?.radius ?? 0;
+    for (const { frame } of recording.frames) {
+      const pose = recordedPose(recording, frame, i);
+      if (!pose) continue;
+      for (let k = 0; k < 3; k++) {
+        low[k] = Math.min(low[k], pose.position[k] - radius);
+        high[k] = Math.max(high[k], pose.position[k] + radius);
+      }
+      if (n++ % every === 0) points.push({ position: pose.position, radius });
+    }
+  });
+  return allFinite(low) && allFinite(high) ? { low, high, points } : null;
+}
+
+class Stage {
+  constructor(recording) {
+    this.recording = recording;
+    this.shapes = recording.shapes.map(buildShape);
+    const solid = (shape) => shape && !shape.plane;
+    const box = extent(recording, this.shapes, (body, shape) => solid(shape) && !body.fixed)
+      ?? extent(recording, this.shapes, (_, shape) => solid(shape))
+      ?? extent(recording, this.shapes, () => true)
+      ?? { low: [-1, -1, -1], high: [1, 1, 1], points: [{ position: [0, 0, 0], radius: 1 }] };
+    const diagonal = length(sub(box.high, box.low));
+    this.middle = scale(add(box.low, box.high), 0.5);
+    this.radius = diagonal > 0 ? diagonal / 2 : 1;
+    this.box = box;
+    this.points = diagonal > 0 ? box.points : [{ position: this.middle, radius: 1 }];
+    this.gridStep = roundStep(this.radius / 6);
+    this.hasPlane = recording.bodies.some((body) => this.shapes[body.shape]?.plane);
+    let moving = 0;
+    this.look = recording.bodies.map((body) => ({ hidden: false, rgb: body.fixed ? null : bodyColour(moving++) }));
+    this.selected = -1;
+  }
+
+  rgb(body, theme) {
+    return this.look[body].rgb ?? theme.fixedRgb;
+  }
+
+  /** Everything that is drawn at a time, positions relative to the scene's centre. */
+  at(time, theme) {
+    const between = bracket(this.recording, time);
+    const items = [];
+    const planes = [];
+    this.recording.bodies.forEach((body, i) => {
+      const shape = this.shapes[body.shape];
+      const pose = poseAt(this.recording, i, between);
+      if (!pose || !shape || this.look[i].hidden) return;
+      const item = { ...pose, body: i, shape: body.shape, rgb: this.rgb(i, theme), selected: i === this.selected };
+      if (shape.plane) planes.push(this.patch(pose.position, rotate(pose.quaternion, shape.plane), body.fixed ? null : item.rgb));
+      else items.push(item);
+    });
+    if (!this.hasPlane) planes.push(this.referenceGrid());
+    return { items, planes, shapes: this.shapes, theme, stage: this };
+  }
+
+  /** The part of a plane that is near the motion; its lines stay at whole steps from the plane's own point. */
+  patch(point, normal, rgb) {
+    const [u, v] = tangents(normal);
+    const away = sub(this.middle, point);
+    const distance = dot(away, normal);
+    return {
+      normal, u, v, rgb, solid: true,
+      centre: sub(this.middle, scale(normal, distance)),
+      // Phase of the grid at the patch's centre, reduced so that the shader's f32 keeps its digits far from the point.
+      phase: [dot(away, u) % (10 * this.gridStep), dot(away, v) % (10 * this.gridStep)],
+      size: 2.4 * this.radius + Math.min(Math.abs(distance), this.radius),
+    };
+  }
+
+  /** Without a plane in the scene: lines under the motion, to tell up from down. Not a thing: it takes no shadow. */
+  referenceGrid() {
+    const z = this.box.low[2] - 0.08 * this.radius;
+    const patch = this.patch([0, 0, z], [0, 0, 1], null);
+    return { ...patch, solid: false };
+  }
+
+  /** The nearest body under a ray, or -1. */
+  pick(scene, origin, ray) {
+    let best = { distance: Infinity, body: -1 };
+    for (const item of scene.items) {
+      const shape = this.shapes[item.shape];
+      const o = unrotate(item.quaternion, sub(origin, item.position));
+      const d = unrotate(item.quaternion, ray);
+      const along = -dot(o, d);
+      if (length(add(o, scale(d, along))) > shape.radius) continue;
+      for (const triangle of shape.corners) {
+        const distance = hit(triangle, o, d);
+        if (distance < best.distance) best = { distance, body: item.body };
+      }
+    }
+    return best.body;
+  }
+}
+
+/** How far along the ray o + t d it meets a triangle (Cramer's rule); Infinity if it does not. */
+function hit([a, b, c], o, d) {
+  const [ab, ac, ao] = [sub(b, a), sub(c, a), sub(o, a)];
+  const p = cross(d, ac);
+  const det = dot(ab, p);
+  if (det === 0) return Infinity;
+  const q = cross(ao, ab);
+  const [u, v, t] = [dot(ao, p) / det, dot(d, q) / det, dot(ac, q) / det];
+  return u >= 0 && v >= 0 && u + v <= 1 && t > 0 ? t : Infinity;
+}
