@@ -17,6 +17,7 @@ import urllib.error, urllib.request, zlib
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--window-size=1280,860", "--force-device-scale-factor=1"]
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # the WebDriver standard's name for an element's reference
+ANSWER_S = 60  # for one command; the protocol itself gives scripts 30 s
 READY_S = 60  # software rendering of a large recording on a busy machine
 
 
@@ -24,10 +25,14 @@ class Failed(Exception):
     """A check that does not hold."""
 
 
+class NoBrowser(Exception):
+    """The browser is missing or does not answer: nothing is known about the page."""
+
+
 def check(holds, text):
     if not holds:
         raise Failed(text)
-    print(f"  ok    {text}")
+    print(f"  ok    {text}", flush=True)
 
 
 class Browser:
@@ -36,7 +41,7 @@ class Browser:
     def __enter__(self):
         driver = shutil.which("chromedriver")
         if not driver:
-            no_browser()
+            raise NoBrowser("chromedriver is missing: install Debian's chromium and chromium-driver")
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             port = probe.getsockname()[1]
@@ -63,15 +68,16 @@ class Browser:
             try:
                 if self.call("GET", "/status")["ready"]:
                     return
-            except (urllib.error.URLError, ConnectionError):
-                time.sleep(0.1)
-        raise Failed("chromedriver did not start")
+            except NoBrowser:
+                pass
+            time.sleep(0.1)
+        raise NoBrowser("chromedriver did not start")
 
     def __exit__(self, *_):
         try:
             self.call("DELETE", "")
-        except (Failed, OSError):
-            pass
+        except (Failed, NoBrowser):
+            pass  # it is stopped next, whether it has let go of the session or not
         self.stop()
 
     def stop(self):
@@ -83,10 +89,12 @@ class Browser:
         data = json.dumps(body).encode() if body is not None else None
         request = urllib.request.Request(self.base + path, data, {"Content-Type": "application/json"}, method=method)
         try:
-            with urllib.request.urlopen(request, timeout=120) as answer:
+            with urllib.request.urlopen(request, timeout=ANSWER_S) as answer:
                 return json.load(answer)["value"]
         except urllib.error.HTTPError as error:
             raise Failed(json.load(error)["value"]["message"]) from error
+        except OSError as error:  # URLError and TimeoutError are OSErrors
+            raise NoBrowser(f"{method} {path or 'session'}: {error}") from error
 
     def script(self, code, *arguments):
         return self.call("POST", "/execute/sync", {"script": code, "args": list(arguments)})
@@ -271,11 +279,6 @@ def check_renderer(page, recording, out, renderer, any_renderer):
         check_quiet(browser)
 
 
-def no_browser():
-    print("chromedriver is missing: install Debian's chromium and chromium-driver", file=sys.stderr)
-    sys.exit(2)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("page", type=pathlib.Path)
@@ -292,6 +295,9 @@ def main():
     except Failed as failure:
         print(f"  FAIL  {failure}")
         return 1
+    except NoBrowser as reason:
+        print(f"  no browser: {reason}", file=sys.stderr)
+        return 2
     return 0
 
 

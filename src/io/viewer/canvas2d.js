@@ -1,7 +1,7 @@
 // The fallback renderer on a 2D canvas: facets sorted from far to near (painter's algorithm).
 // Long facets are cut up first, since one depth for a long facet puts it before or behind too much.
 
-/** Facets all bodies together may have after cutting up: above this a picture takes longer than a frame. */
+/** Facets all bodies together may have after cutting up: about 100 ms a picture on a slow machine. */
 const FACET_BUDGET = 24000;
 
 class Canvas2dRenderer {
@@ -9,9 +9,12 @@ class Canvas2dRenderer {
     this.context = canvas.getContext("2d");
     if (!this.context) throw new Error("neither WebGL2 nor a 2D canvas is available");
     this.name = "canvas2d";
-    const users = stage.recording.bodies.length || 1;
-    this.shapes = stage.shapes.map((shape) =>
-      shape && !shape.plane ? subdivided(shape, Math.min(stage.radius / 4, shape.radius * 1.5), FACET_BUDGET / users) : shape);
+    const share = FACET_BUDGET / (stage.recording.bodies.length || 1);
+    this.shapes = stage.shapes.map((shape) => {
+      if (!shape || shape.plane) return shape;
+      if (shape.circles) return ellipsoid(shape.axes, sphereLevels(share));
+      return subdivided(shape, Math.min(stage.radius / 4, shape.radius * 1.5), share);
+    });
   }
 
   draw(scene, view, pixelRatio) {
@@ -68,22 +71,20 @@ class Canvas2dRenderer {
     }
   }
 
-  /** One path of all facets that face the light, all wound alike, so that their union is filled once. */
+  /**
+   * Each shadow as the hull of its body's corners thrown on the plane, all in one path: hulls are wound alike, so
+   * that where they overlap is filled once. A hollow body's shadow is too full; facet by facet it takes seconds.
+   */
   drawShadows(scene, view, patch) {
-    const down = (p) => {
-      const height = dot(sub(p, patch.centre), patch.normal);
-      return sub(p, height > 0 ? scale(LIGHT, height / dot(patch.normal, LIGHT)) : scale(patch.normal, height));
-    };
-    const polygons = [];
-    for (const item of scene.items) {
-      const shape = this.shapes[item.shape];
-      shape.corners.forEach((t, i) => {
-        const lit = dot(rotate(item.quaternion, shape.normals[i]), LIGHT) > 0;
-        if (!lit && shape.closed) return;
-        const fallen = t.map((p) => down(add(item.position, rotate(item.quaternion, p))));
-        polygons.push(projectPolygon(view, lit ? fallen : fallen.reverse()));
+    const polygons = scene.items.map((item) => {
+      const fallen = this.shapes[item.shape].points.map((corner) => {
+        const p = sub(add(item.position, rotate(item.quaternion, corner)), patch.centre);
+        const height = dot(p, patch.normal);
+        const q = height > 0 ? sub(p, scale(LIGHT, height / dot(patch.normal, LIGHT))) : p;
+        return [dot(q, patch.u), dot(q, patch.v)];
       });
-    }
+      return projectPolygon(view, hull(fallen).map(([x, y]) => add(patch.centre, add(scale(patch.u, x), scale(patch.v, y)))));
+    });
     this.path(polygons);
     this.context.fillStyle = `rgba(0,0,0,${scene.theme.shadow})`;
     this.context.fill("nonzero");

@@ -2,13 +2,13 @@
 
 /** Facets that meet at more than this are divided by a line: below it they are the facets of a rounded surface. */
 const SHARP_ANGLE = (25 * Math.PI) / 180;
-/** Subdivisions of the icosahedron for an ellipsoid: 3 gives 1280 facets, 10 degrees each at most. */
-const SPHERE_LEVELS = 3;
+/** Subdivisions of the icosahedron for one body's share of a budget of facets: 20 * 4^levels of them. */
+const sphereLevels = (share) => (share > 1280 ? 3 : share > 320 ? 2 : 1);
 
-/** { corners: [[a, b, c]], normals: [n], sharp: [[ab, bc, ca]], lines: [[a, b]], radius, closed } or { plane } or null. */
-function buildShape(shape) {
+/** { corners: [[a, b, c]], normals: [n], sharp: [[ab, bc, ca]], lines: [[a, b]], points: [p], radius, closed } or { plane } or null. */
+function buildShape(shape, facetShare) {
   if (shape.plane) return { plane: direction(shape.plane.map(Number)) ?? [0, 0, 1], radius: 0 };
-  if (shape.ellipsoid) return ellipsoid(shape.ellipsoid);
+  if (shape.ellipsoid) return ellipsoid(shape.ellipsoid, sphereLevels(facetShare));
   const vertices = decode(shape.mesh.vertices, "Float32");
   const triangles = decode(shape.mesh.triangles, "Uint32");
   const vertex = (i) => [vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]];
@@ -53,24 +53,24 @@ function withEdges(triangles) {
   }
   const sharp = keys.map((list) => list.map((key) => edges.get(key).sharp));
   const lines = [...edges.values()].filter((edge) => edge.sharp).map((edge) => edge.ends);
-  let radius = 0;
-  for (const t of corners) for (const p of t) radius = Math.max(radius, length(p));
-  return corners.length > 0 ? { corners, normals, sharp, lines, radius, closed } : null;
+  const points = [...new Map(corners.flat().map((p) => [id(p), p])).values()];
+  const radius = points.reduce((r, p) => Math.max(r, length(p)), 0);
+  return corners.length > 0 ? { corners, normals, sharp, lines, points, radius, closed } : null;
 }
 
-function ellipsoid(axes) {
+function ellipsoid(axes, levels) {
   if (!axes.every((a) => Number.isFinite(a) && a >= 0)) return null;
   const largest = Math.max(...axes);
   if (!(largest > 0)) return null;
   // A rod's inertia ellipsoid may be flat or a needle: it keeps a little breadth so that it has facets.
   const size = axes.map((a) => Math.max(a, 0.01 * largest));
   const stretch = (p) => p.map((x, i) => x * size[i]);
-  const shape = withEdges(sphereTriangles().map((t) => t.map(stretch)));
+  const shape = withEdges(sphereTriangles(levels).map((t) => t.map(stretch)));
   // The three great circles along the axes show how a smooth body turns.
   shape.lines = [];
   shape.circles = true;
   shape.axes = size;
-  const n = 48;
+  const n = 12 * 2 ** Math.min(levels, 2);
   for (let axis = 0; axis < 3; axis++) {
     const at = (k) => {
       const p = [0, 0, 0];
@@ -84,8 +84,8 @@ function ellipsoid(axes) {
   return shape;
 }
 
-/** Icosahedron, each facet quartered SPHERE_LEVELS times, on the unit sphere. */
-function sphereTriangles() {
+/** Icosahedron, each facet quartered `levels` times, on the unit sphere. */
+function sphereTriangles(levels) {
   const g = (1 + Math.sqrt(5)) / 2;
   const v = [
     [-1, g, 0], [1, g, 0], [-1, -g, 0], [1, -g, 0], [0, -1, g], [0, 1, g],
@@ -96,7 +96,7 @@ function sphereTriangles() {
     [3, 9, 4], [3, 4, 2], [3, 2, 6], [3, 6, 8], [3, 8, 9], [4, 9, 5], [2, 4, 11], [6, 2, 10], [8, 6, 7], [9, 8, 1],
   ];
   let list = faces.map((f) => f.map((i) => v[i]));
-  for (let level = 0; level < SPHERE_LEVELS; level++) {
+  for (let level = 0; level < levels; level++) {
     list = list.flatMap(([a, b, c]) => {
       const [ab, bc, ca] = [add(a, b), add(b, c), add(c, a)].map(direction);
       return [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]];
@@ -104,6 +104,22 @@ function sphereTriangles() {
   }
   return list;
 }
+
+/** The convex hull of points in a plane, anticlockwise (monotone chain: lower side, then upper). */
+function hull(points) {
+  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  const half = (list) => {
+    const chain = [];
+    for (const p of list) {
+      while (chain.length >= 2 && turn(chain[chain.length - 2], chain[chain.length - 1], p) <= 0) chain.pop();
+      chain.push(p);
+    }
+    return chain.slice(0, -1);
+  };
+  return [...half(sorted), ...half(sorted.reverse())];
+}
+
+const turn = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 
 /** The same surface in pieces whose edges are at most `longest`: the painter's order goes wrong on long triangles. */
 function subdivided(shape, longest, limit) {

@@ -2,6 +2,8 @@
 
 /** Marks and paths drawn at most: a pile has thousands of contacts, and nobody reads more. */
 const MAX_MARKS = 400;
+/** From so many marks in sight on, they are drawn small. */
+const CROWD = 25;
 const MAX_PATHS = 60;
 const PATH_POINTS = 600;
 
@@ -41,9 +43,10 @@ class Overlay {
       if (strength > 0 && allFinite(marks[i].point)) visible.push({ mark: marks[i], strength });
       if (visible.length === MAX_MARKS) break;
     }
-    const labelled = visible.length <= 4;
+    const few = visible.length <= 4;
+    const size = visible.length < CROWD ? 1 : 0.5;
     for (const { mark, strength } of visible.reverse()) {
-      this.drawMark(scene, view, mark, strength, labelled || mark === chosenMark);
+      this.drawMark(scene, view, mark, { strength, size, labelled: mark === chosenMark || (few && strength > 0.5) });
     }
   }
 
@@ -52,7 +55,7 @@ class Overlay {
     return this.times;
   }
 
-  drawMark({ theme }, view, mark, strength, labelled) {
+  drawMark({ theme }, view, mark, { strength, size, labelled }) {
     const c = this.context;
     const foot = project(view, mark.point);
     if (foot.depth < view.near) return;
@@ -60,26 +63,26 @@ class Overlay {
     c.strokeStyle = c.fillStyle = theme.contact;
     c.lineWidth = 1.5;
     c.beginPath();
-    c.arc(foot.x, foot.y, 4 + 10 * (1 - strength), 0, 2 * Math.PI);
+    c.arc(foot.x, foot.y, size * (4 + 10 * (1 - strength)), 0, 2 * Math.PI);
     c.stroke();
     c.beginPath();
-    c.arc(foot.x, foot.y, 3, 0, 2 * Math.PI);
+    c.arc(foot.x, foot.y, 3 * size, 0, 2 * Math.PI);
     c.fill();
     if (mark.normal) {
       // Longer for a stronger impulse, by the square root so that weak ones still show.
       const share = this.largestImpulse > 0 && mark.impulse > 0 ? Math.sqrt(Math.min(mark.impulse / this.largestImpulse, 1)) : 0;
-      const tip = project(view, add(mark.point, scale(mark.normal, this.stage.radius * (0.12 + 0.22 * share))));
-      if (tip.depth > view.near) this.arrow(foot, tip);
+      const tip = project(view, add(mark.point, scale(mark.normal, this.stage.arrow * (0.4 + 0.6 * share))));
+      if (tip.depth > view.near) this.arrow(foot, tip, size);
       if (labelled && Number.isFinite(mark.impulse)) this.text(`${show(mark.impulse, 3)} N s`, tip.x + 8, tip.y, theme);
     }
     c.globalAlpha = 1;
   }
 
-  arrow(from, to) {
+  arrow(from, to, size) {
     const c = this.context;
     const [dx, dy] = [to.x - from.x, to.y - from.y];
     const n = Math.hypot(dx, dy);
-    c.lineWidth = 2.5;
+    c.lineWidth = 2.5 * size;
     c.beginPath();
     c.moveTo(from.x, from.y);
     c.lineTo(to.x, to.y);
@@ -87,9 +90,10 @@ class Overlay {
     if (n < 6) return; // end on: a head would point nowhere
     const [ux, uy] = [dx / n, dy / n];
     c.beginPath();
-    c.moveTo(to.x + 4 * ux, to.y + 4 * uy);
-    c.lineTo(to.x - 6 * ux - 5 * uy, to.y - 6 * uy + 5 * ux);
-    c.lineTo(to.x - 6 * ux + 5 * uy, to.y - 6 * uy - 5 * ux);
+    const [tip, back, side] = [4 * size, 6 * size, 5 * size];
+    c.moveTo(to.x + tip * ux, to.y + tip * uy);
+    c.lineTo(to.x - back * ux - side * uy, to.y - back * uy + side * ux);
+    c.lineTo(to.x - back * ux + side * uy, to.y - back * uy - side * ux);
     c.fill();
   }
 

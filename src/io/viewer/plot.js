@@ -110,7 +110,7 @@ class EnergyPlot {
     if (!this.scale) {
       c.fillStyle = theme.muted;
       c.textAlign = "center";
-      c.fillText(this.samples.length ? "all curves are hidden" : "no energy was recorded", (left + right) / 2, (top + bottom) / 2);
+      c.fillText("no finite energy to show", (left + right) / 2, (top + bottom) / 2);
       return;
     }
     this.drawAxes(c);

@@ -26,7 +26,7 @@ function bodyColour(n) {
 
 /** Brightness of a facet: sky and ground, the light, and a little from the eye. The shader has the same formula. */
 function brightness(normal, toEye) {
-  return 0.5 + 0.14 * normal[2] + 0.42 * Math.max(0, dot(normal, LIGHT)) + 0.1 * Math.max(0, dot(normal, toEye));
+  return 0.56 + 0.14 * normal[2] + 0.36 * Math.max(0, dot(normal, LIGHT)) + 0.1 * Math.max(0, dot(normal, toEye));
 }
 
 const cssVariable = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -41,6 +41,9 @@ function readTheme() {
   theme.shadow = theme.dark ? 0.45 : 0.2;
   return theme;
 }
+
+/** Facets that all ellipsoids together may have: more show no more, and a software renderer has to draw them too. */
+const FACETS_OF_ELLIPSOIDS = 100000;
 
 /** Positions kept for the first view: a few thousand give the same view as a million. */
 const MAX_VIEW_POINTS = 4000;
@@ -71,7 +74,8 @@ function extent(recording, shapes, chosen) {
 class Stage {
   constructor(recording) {
     this.recording = recording;
-    this.shapes = recording.shapes.map(buildShape);
+    const share = FACETS_OF_ELLIPSOIDS / (recording.bodies.length || 1);
+    this.shapes = recording.shapes.map((shape) => buildShape(shape, share));
     const solid = (shape) => shape && !shape.plane;
     const box = extent(recording, this.shapes, (body, shape) => solid(shape) && !body.fixed)
       ?? extent(recording, this.shapes, (_, shape) => solid(shape))
@@ -82,7 +86,11 @@ class Stage {
     this.radius = diagonal > 0 ? diagonal / 2 : 1;
     this.box = box;
     this.points = diagonal > 0 ? box.points : [{ position: this.middle, radius: 1 }];
-    this.gridStep = roundStep(this.radius / 6);
+    this.gridStep = roundStep(this.radius / 10);
+    // Marks are of the size of what touches, but never lost in the picture.
+    const radii = recording.bodies.filter((body) => !body.fixed).map((body) => this.shapes[body.shape]?.radius ?? 0);
+    const middling = radii.sort((a, b) => a - b)[radii.length >> 1] ?? 0;
+    this.arrow = clamp(2 * middling, 0.05 * this.radius, 0.3 * this.radius);
     this.hasPlane = recording.bodies.some((body) => this.shapes[body.shape]?.plane);
     let moving = 0;
     this.look = recording.bodies.map((body) => ({ hidden: false, rgb: body.fixed ? null : bodyColour(moving++) }));

@@ -62,6 +62,7 @@ class Viewer {
     if (recording.duration > 0) facts.push(`${show(recording.duration)} s`);
     if (this.renderer.name === "canvas2d") facts.push("2D fallback");
     byId("facts").textContent = facts.join(" · ");
+    byId("energy-panel").hidden = recording.energy.length === 0;
     byId("n-bodies").textContent = String(recording.bodies.length);
   }
 

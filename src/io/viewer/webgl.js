@@ -40,7 +40,7 @@ void main() {
   if (edge > 0.0) { pixel = vec4(mix(colour.rgb * edge, vec3(1.0), colour.a * 0.9), 1.0); return; }
   vec3 toEye = normalize(-place);
   vec3 n = dot(normal, toEye) < 0.0 ? -normal : normal;
-  float b = 0.5 + 0.14 * n.z + 0.42 * max(0.0, dot(n, light)) + 0.1 * max(0.0, dot(n, toEye));
+  float b = 0.56 + 0.14 * n.z + 0.36 * max(0.0, dot(n, light)) + 0.1 * max(0.0, dot(n, toEye));
   pixel = vec4(min(colour.rgb * b + colour.a * 0.12, 1.0), 1.0);
 }`;
 
@@ -65,7 +65,7 @@ out vec4 pixel;
 float lines(float gap) {
   vec2 w = fwidth(at) / gap;
   vec2 d = abs(fract((at + phase) / gap - 0.5) - 0.5) / w;
-  vec2 crisp = clamp(1.2 - d, 0.0, 1.0) * clamp(1.2 - 2.5 * w, 0.0, 1.0);   // fades before it shimmers
+  vec2 crisp = clamp(1.0 - d, 0.0, 1.0) * clamp(1.2 - 2.5 * w, 0.0, 1.0);   // fades before it shimmers
   return max(crisp.x, crisp.y);
 }
 void main() {
