@@ -237,7 +237,7 @@ fn playback<'a>(scene: &'a str, names: &[String], looks: &[Look], record: &Recor
 }
 
 fn table(summary: &Summary, out: &Path) -> String {
-    let drift = |value: Option<f64>| value.map_or_else(|| "not conserved here".into(), |value| format!("{value:.1e}"));
+    let drift = |value: Option<f64>| value.map_or_else(|| "-".into(), |value| format!("{value:.1e}"));
     let rows = [
         ("simulated", format!("{} s in {:.3} s, {:.0} times real time", summary.sim_s, summary.wall_s, summary.real_time_factor)),
         ("bodies", summary.bodies.to_string()),

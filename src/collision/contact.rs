@@ -30,6 +30,14 @@ impl<T: Real> Contact<T> {
         bodies.position[self.a].moved(self.arm_a.map(Real::to_f64))
     }
 
+    /// The same contact with its second arm taken anew from where the bodies are: both arms then end in one point, and
+    /// an impulse leaves the angular momentum as it is.
+    #[must_use]
+    pub fn anchored(self, bodies: &Bodies<T>) -> Self {
+        let between = bodies.position[self.a].displacement_to(bodies.position[self.b]).map(T::from_f64);
+        Self { arm_b: self.arm_a - between, ..self }
+    }
+
     /// `n . (v_a - v_b)` at the contact, m/s: positive when the bodies approach.
     #[must_use]
     pub fn approach_speed(&self, bodies: &Bodies<T>, inertias: &[Inertia<T>]) -> T {

@@ -176,6 +176,7 @@ impl<T: Real> World<T> {
         self.try_advance(bracket.separated * span_s)?;
         self.accept(self.time_s + bracket.separated * span_s);
         let Setup { bodies, inertias, restitution, .. } = &mut self.setup;
+        self.contacts.iter_mut().for_each(|contact| *contact = contact.anchored(bodies));
         let impulses = collision::resolve(&self.contacts, bodies, inertias, *restitution);
         let bodies = &self.setup.bodies;
         let impact = |impulse: &collision::Impulse<T>| {
