@@ -2,11 +2,7 @@
 //!
 //! The look and the behaviour in a browser are judged by `tests/viewer/check.py`; `cargo test` needs no browser.
 #![cfg(feature = "cli")]
-#![allow(
-    clippy::unwrap_used,
-    clippy::cast_possible_truncation,
-    reason = "a test fails by panicking"
-)]
+#![allow(clippy::unwrap_used, clippy::cast_possible_truncation, reason = "a test fails by panicking")]
 
 #[path = "html/sample.rs"]
 mod sample;
@@ -39,26 +35,17 @@ fn index(page: &str) -> Value {
 
 fn f64s(page: &str, id: &str) -> Vec<f64> {
     let bytes = BASE64.decode(block(page, id)).unwrap();
-    bytes
-        .chunks_exact(8)
-        .map(|b| f64::from_le_bytes(b.try_into().unwrap()))
-        .collect()
+    bytes.chunks_exact(8).map(|b| f64::from_le_bytes(b.try_into().unwrap())).collect()
 }
 
 fn f32s(text: &str) -> Vec<f32> {
     let bytes = BASE64.decode(text).unwrap();
-    bytes
-        .chunks_exact(4)
-        .map(|b| f32::from_le_bytes(b.try_into().unwrap()))
-        .collect()
+    bytes.chunks_exact(4).map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect()
 }
 
 fn u32s(text: &str) -> Vec<u32> {
     let bytes = BASE64.decode(text).unwrap();
-    bytes
-        .chunks_exact(4)
-        .map(|b| u32::from_le_bytes(b.try_into().unwrap()))
-        .collect()
+    bytes.chunks_exact(4).map(|b| u32::from_le_bytes(b.try_into().unwrap())).collect()
 }
 
 fn count(page: &str, part: &str) -> usize {
@@ -68,11 +55,7 @@ fn count(page: &str, part: &str) -> usize {
 fn hostile(name: &str) -> Playback<'_> {
     Playback {
         scene: name,
-        bodies: vec![BodyView {
-            name: name.to_owned(),
-            fixed: false,
-            shape: sample::cube(1.0),
-        }],
+        bodies: vec![BodyView { name: name.to_owned(), fixed: false, shape: sample::cube(1.0) }],
         times_s: vec![0.0],
         poses: vec![vec![[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]],
         marks: vec![Mark {
@@ -93,16 +76,10 @@ fn a_hostile_name_adds_no_markup_and_comes_back_unchanged() {
     let plain = render(&hostile("plain"));
     for name in HOSTILE {
         let page = render(&hostile(name));
-        for part in [
-            "<script", "</script", "<!--", "<img", "</title", "onerror=", "\u{2028}", "\u{2029}",
-        ] {
+        for part in ["<script", "</script", "<!--", "<img", "</title", "onerror=", "\u{2028}", "\u{2029}"] {
             // "onerror=" is harmless text; only together with "<" would it be markup.
             if part != "onerror=" {
-                assert_eq!(
-                    count(&page, part),
-                    count(&plain, part),
-                    "{part:?} from the name {name:?}"
-                );
+                assert_eq!(count(&page, part), count(&plain, part), "{part:?} from the name {name:?}");
             }
         }
         let index = index(&page);
@@ -121,29 +98,10 @@ fn the_title_shows_a_hostile_scene_name_as_text() {
 #[test]
 fn every_placeholder_is_filled() {
     let page = render(&sample::tumbling("sample", [0.0; 3]));
-    for name in [
-        "title",
-        "style",
-        "script",
-        "index",
-        "times",
-        "poses",
-        "energy",
-        "marks",
-        "mark_names",
-    ] {
-        assert!(
-            !page.contains(&format!("{{{{{name}}}}}")),
-            "{name} was left in the page"
-        );
+    for name in ["title", "style", "script", "index", "times", "poses", "energy", "marks", "mark_names"] {
+        assert!(!page.contains(&format!("{{{{{name}}}}}")), "{name} was left in the page");
     }
-    for id in [
-        "ga-times",
-        "ga-poses",
-        "ga-energy",
-        "ga-marks",
-        "ga-mark-names",
-    ] {
+    for id in ["ga-times", "ga-poses", "ga-energy", "ga-marks", "ga-mark-names"] {
         assert!(!block(&page, id).is_empty(), "{id} is empty");
     }
 }
@@ -165,15 +123,8 @@ fn the_page_refers_to_nothing_outside_itself() {
     ] {
         assert_eq!(count(&page, part), 0, "{part} in the page");
     }
-    assert_eq!(
-        count(&page, "href="),
-        count(&page, "href=\"data:,\""),
-        "a link that leads somewhere"
-    );
-    assert!(
-        page.contains("default-src 'none'"),
-        "the policy that forbids every request"
-    );
+    assert_eq!(count(&page, "href="), count(&page, "href=\"data:,\""), "a link that leads somewhere");
+    assert!(page.contains("default-src 'none'"), "the policy that forbids every request");
 }
 
 #[test]
@@ -182,29 +133,13 @@ fn poses_come_back_relative_to_the_centre() {
     let page = render(&playback);
     // Read digit by digit: serde_json's own reading of numbers may be an ulp off, a browser's is exact.
     let (_, rest) = block(&page, "ga-index").split_once("\"centre\":[").unwrap();
-    let centre: Vec<f64> = rest
-        .split_once(']')
-        .unwrap()
-        .0
-        .split(',')
-        .map(|x| x.parse().unwrap())
-        .collect();
+    let centre: Vec<f64> = rest.split_once(']').unwrap().0.split(',').map(|x| x.parse().unwrap()).collect();
     let stored = f32s(block(&page, "ga-poses"));
     let expected: Vec<f32> = playback
         .poses
         .iter()
         .flatten()
-        .flat_map(|p| {
-            [
-                p[0] - centre[0],
-                p[1] - centre[1],
-                p[2] - centre[2],
-                p[3],
-                p[4],
-                p[5],
-                p[6],
-            ]
-        })
+        .flat_map(|p| [p[0] - centre[0], p[1] - centre[1], p[2] - centre[2], p[3], p[4], p[5], p[6]])
         .map(|x| x as f32)
         .collect();
     assert!(stored == expected, "a stored pose differs");
@@ -215,10 +150,7 @@ fn poses_come_back_relative_to_the_centre() {
 fn a_scene_far_from_the_origin_keeps_its_digits() {
     // 1e6 m is 2^20 m and less than 2^20 m: f64 has steps of 2^-33 m there, f32 steps of 2^-4 m.
     let offset = [1e6, -1e6, 1e6];
-    let (near, far) = (
-        render(&sample::tumbling("s", [0.0; 3])),
-        render(&sample::tumbling("s", offset)),
-    );
+    let (near, far) = (render(&sample::tumbling("s", [0.0; 3])), render(&sample::tumbling("s", offset)));
     // Half a step each for the moved position, the middle, and the f32 of at most 4 m.
     let bound = 2.0 * 2.0_f64.powi(-33) + 4.0 * f64::from(f32::EPSILON);
     let worst = f32s(block(&near, "ga-poses"))
@@ -228,19 +160,12 @@ fn a_scene_far_from_the_origin_keeps_its_digits() {
         .filter(|(i, _)| i / 7 % 4 != 0) // not the floor: its middle is far from the moving bodies' by nature
         .map(|(_, (a, b))| (f64::from(a) - f64::from(b)).abs())
         .fold(0.0, f64::max);
-    assert!(
-        worst <= bound,
-        "worst difference {worst} m, bound {bound} m"
-    );
+    assert!(worst <= bound, "worst difference {worst} m, bound {bound} m");
 }
 
 #[test]
 fn the_centre_is_that_of_the_moving_bodies() {
-    let body = |fixed| BodyView {
-        name: String::new(),
-        fixed,
-        shape: sample::cube(1.0),
-    };
+    let body = |fixed| BodyView { name: String::new(), fixed, shape: sample::cube(1.0) };
     let at = |x: f64| [x, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
     let playback = Playback {
         scene: "",
@@ -250,10 +175,7 @@ fn the_centre_is_that_of_the_moving_bodies() {
         marks: vec![],
         energy: vec![],
     };
-    assert_eq!(
-        index(&render(&playback))["centre"],
-        serde_json::json!([2.0, 0.0, 0.0])
-    );
+    assert_eq!(index(&render(&playback))["centre"], serde_json::json!([2.0, 0.0, 0.0]));
 }
 
 #[test]
@@ -272,32 +194,17 @@ fn a_missing_pose_is_nan_and_an_extra_one_is_dropped() {
 #[test]
 fn equal_shapes_are_stored_once_and_unharmed() {
     let mut playback = sample::crowd("crowd", 10);
-    playback.bodies.push(BodyView {
-        name: "odd".to_owned(),
-        fixed: false,
-        shape: sample::pyramid(0.5),
-    });
+    playback.bodies.push(BodyView { name: "odd".to_owned(), fixed: false, shape: sample::pyramid(0.5) });
     let index = index(&render(&playback));
     // The floor, the cube, the ellipsoid, the pyramid.
     assert_eq!(index["shapes"].as_array().unwrap().len(), 4);
-    let numbers: Vec<u64> = (0..12)
-        .map(|i| index["bodies"][i]["shape"].as_u64().unwrap())
-        .collect();
+    let numbers: Vec<u64> = (0..12).map(|i| index["bodies"][i]["shape"].as_u64().unwrap()).collect();
     assert_eq!(numbers, [0, 1, 2, 1, 2, 1, 2, 1, 2, 1, 2, 3]);
-    let Shape::Mesh {
-        vertices,
-        triangles,
-    } = sample::pyramid(0.5)
-    else {
-        unreachable!()
-    };
+    let Shape::Mesh { vertices, triangles } = sample::pyramid(0.5) else { unreachable!() };
     let mesh = &index["shapes"][3]["mesh"];
     let expected: Vec<f32> = vertices.iter().flatten().map(|x| *x as f32).collect();
     assert_eq!(f32s(mesh["vertices"].as_str().unwrap()), expected);
-    assert_eq!(
-        u32s(mesh["triangles"].as_str().unwrap()),
-        triangles.as_flattened()
-    );
+    assert_eq!(u32s(mesh["triangles"].as_str().unwrap()), triangles.as_flattened());
 }
 
 #[test]
@@ -317,17 +224,11 @@ fn marks_and_energy_come_back_bit_for_bit() {
     let names = index(&page)["names"].clone();
     let stored = u32s(block(&page, "ga-mark-names"));
     for (mark, named) in playback.marks.iter().zip(stored.chunks_exact(3)) {
-        let text: Vec<&str> = named
-            .iter()
-            .map(|k| names[*k as usize].as_str().unwrap())
-            .collect();
+        let text: Vec<&str> = named.iter().map(|k| names[*k as usize].as_str().unwrap()).collect();
         assert_eq!(text, [&mark.a, &mark.b, &mark.kind]);
     }
-    let energy: Vec<f64> = playback
-        .energy
-        .iter()
-        .flat_map(|e| [e.time_s, e.kinetic_j, e.potential_j, e.total_j])
-        .collect();
+    let energy: Vec<f64> =
+        playback.energy.iter().flat_map(|e| [e.time_s, e.kinetic_j, e.potential_j, e.total_j]).collect();
     assert_eq!(f64s(&page, "ga-energy"), energy);
 }
 
@@ -338,40 +239,24 @@ fn values_that_are_not_finite_leave_the_page_readable() {
     playback.bodies.push(BodyView {
         name: "e".to_owned(),
         fixed: false,
-        shape: Shape::Ellipsoid {
-            semi_axes: [f64::NAN, 1.0, 2.0],
-        },
+        shape: Shape::Ellipsoid { semi_axes: [f64::NAN, 1.0, 2.0] },
     });
     playback.bodies.push(BodyView {
         name: "p".to_owned(),
         fixed: true,
-        shape: Shape::Plane {
-            normal: [f64::INFINITY; 3],
-        },
+        shape: Shape::Plane { normal: [f64::INFINITY; 3] },
     });
-    playback.energy.push(EnergySample {
-        time_s: 0.0,
-        kinetic_j: f64::NAN,
-        potential_j: f64::INFINITY,
-        total_j: 0.0,
-    });
+    playback.energy.push(EnergySample { time_s: 0.0, kinetic_j: f64::NAN, potential_j: f64::INFINITY, total_j: 0.0 });
     let index = index(&render(&playback));
     assert_eq!(index["centre"], serde_json::json!([0.0, 0.0, 0.0]));
-    assert_eq!(
-        index["shapes"][1]["ellipsoid"],
-        serde_json::json!([null, 1.0, 2.0])
-    );
+    assert_eq!(index["shapes"][1]["ellipsoid"], serde_json::json!([null, 1.0, 2.0]));
 }
 
 #[test]
 fn the_same_playback_gives_the_same_bytes() {
     let page = render(&sample::crowd("crowd", 40));
     assert_eq!(page, render(&sample::crowd("crowd", 40)));
-    assert_ne!(
-        page,
-        render(&sample::crowd("crowd", 41)),
-        "the comparison can fail"
-    );
+    assert_ne!(page, render(&sample::crowd("crowd", 41)), "the comparison can fail");
 }
 
 /// `cargo test --test html -- --ignored` writes pages to look at, and to give to `tests/viewer/check.py`.
@@ -403,16 +288,11 @@ fn write_samples() {
     broken.bodies.push(BodyView {
         name: "never".to_owned(),
         fixed: false,
-        shape: Shape::Ellipsoid {
-            semi_axes: [f64::NAN; 3],
-        },
+        shape: Shape::Ellipsoid { semi_axes: [f64::NAN; 3] },
     });
     for (file, playback) in [
         ("tumbling", sample::tumbling("tumbling bodies", [0.0; 3])),
-        (
-            "far",
-            sample::tumbling("a million metres away", [1e6, -1e6, 1e6]),
-        ),
+        ("far", sample::tumbling("a million metres away", [1e6, -1e6, 1e6])),
         ("single", single),
         ("names", names),
         ("broken", broken),

@@ -81,6 +81,13 @@ fn a_crack_is_told_from_a_hole() {
     assert!(report.messages[0].text.contains(&gap), "{}", report.messages[0].text);
 }
 
+/// Two boundary vertices at the ends of one short edge are where they should be.
+#[test]
+fn a_short_edge_is_no_crack() {
+    let report = check(&mesh(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1e-9, 0.0]], &[[0, 1, 2]]));
+    assert_only_error(&report, "close the holes");
+}
+
 #[test]
 fn flipped_facets_are_counted_and_named() {
     let mut flipped = icosphere(1);

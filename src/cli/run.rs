@@ -18,22 +18,22 @@ use std::time::Instant;
 
 /// What to run, and how.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub(super) struct Options {
     /// The scene file.
-    pub scene: PathBuf,
+    pub(super) scene: PathBuf,
     /// Where the files go; default `out/<scene>`.
-    pub out: Option<PathBuf>,
+    pub(super) out: Option<PathBuf>,
     /// `--set` texts.
-    pub sets: Vec<String>,
+    pub(super) sets: Vec<String>,
     /// Nothing on the terminal but errors.
-    pub quiet: bool,
+    pub(super) quiet: bool,
 }
 
 /// Runs a scene.
 ///
 /// # Errors
 /// The user's input is wrong; the run failed, and what was recorded is written.
-pub fn run(options: &Options) -> Result<(), Failure> {
+pub(super) fn run(options: &Options) -> Result<(), Failure> {
     let (scene, source) = load(&options.scene, &options.sets).map_err(Failure::rejected)?;
     match scene.solver.scalar {
         Scalar::F64 => run_in::<f64>(options, &scene, source),
@@ -76,7 +76,10 @@ pub(super) fn scene_name(path: &Path) -> String {
 }
 
 fn progress(quiet: bool, steps: u64) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(steps), if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() });
+    let bar = ProgressBar::with_draw_target(
+        Some(steps),
+        if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() },
+    );
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {pos}/{len} steps  {eta} left") {
         bar.set_style(style);
     }
@@ -84,7 +87,12 @@ fn progress(quiet: bool, steps: u64) -> ProgressBar {
 }
 
 /// Makes all steps; returns how many, and how it ended. The times are multiples of dt, so that they do not drift.
-fn simulate<T: Real>(world: &mut World<T>, record: &mut Record, scene: &Scene, bar: &ProgressBar) -> (u64, Result<(), SimulationError>) {
+fn simulate<T: Real>(
+    world: &mut World<T>,
+    record: &mut Record,
+    scene: &Scene,
+    bar: &ProgressBar,
+) -> (u64, Result<(), SimulationError>) {
     let (dt_s, duration_s) = (*scene.dt_s.get_ref(), *scene.duration_s.get_ref());
     let interval_s = scene.record_hz.as_ref().map_or(0.0, |hz| 1.0 / hz.get_ref());
     let steps = plan::steps(scene);
@@ -185,7 +193,13 @@ impl Conserved {
     }
 }
 
-fn write_files(out: &Path, names: &[String], looks: &[Look], record: &Record, summary: &Summary) -> Result<(), WriteError> {
+fn write_files(
+    out: &Path,
+    names: &[String],
+    looks: &[Look],
+    record: &Record,
+    summary: &Summary,
+) -> Result<(), WriteError> {
     write_whole(&out.join("trajectory.csv"), |file| tables::trajectory(file, names, &record.frames))?;
     write_whole(&out.join("energy.csv"), |file| tables::energy(file, &record.energies))?;
     write_whole(&out.join("events.csv"), |file| tables::events(file, names, &record.events))?;
@@ -198,7 +212,10 @@ fn write_files(out: &Path, names: &[String], looks: &[Look], record: &Record, su
 fn playback<'a>(scene: &'a str, names: &[String], looks: &[Look], record: &Record) -> Playback<'a> {
     let bodies = names.iter().zip(looks).enumerate().map(|(index, (name, look))| html::BodyView {
         name: name.clone(),
-        fixed: record.frames.first().is_some_and(|first| record.frames.iter().all(|frame| frame.bodies[index] == first.bodies[index])),
+        fixed: record
+            .frames
+            .first()
+            .is_some_and(|first| record.frames.iter().all(|frame| frame.bodies[index] == first.bodies[index])),
         shape: match look {
             Look::Mesh(mesh) => html::Shape::Mesh {
                 vertices: mesh.vertices.iter().map(|vertex| <[f64; 3]>::from(*vertex)).collect(),
@@ -227,19 +244,26 @@ fn playback<'a>(scene: &'a str, names: &[String], looks: &[Look], record: &Recor
         times_s: record.frames.iter().map(|frame| frame.time_s).collect(),
         poses: record.frames.iter().map(|frame| frame.bodies.iter().map(pose).collect()).collect(),
         marks: record.events.iter().map(mark).collect(),
-        energy: record.energies.iter().map(|sample| html::EnergySample {
-            time_s: sample.time_s,
-            kinetic_j: sample.totals.kinetic,
-            potential_j: sample.totals.potential,
-            total_j: sample.totals.kinetic + sample.totals.potential,
-        }).collect(),
+        energy: record
+            .energies
+            .iter()
+            .map(|sample| html::EnergySample {
+                time_s: sample.time_s,
+                kinetic_j: sample.totals.kinetic,
+                potential_j: sample.totals.potential,
+                total_j: sample.totals.kinetic + sample.totals.potential,
+            })
+            .collect(),
     }
 }
 
 fn table(summary: &Summary, out: &Path) -> String {
     let drift = |value: Option<f64>| value.map_or_else(|| "-".into(), |value| format!("{value:.1e}"));
     let rows = [
-        ("simulated", format!("{} s in {:.3} s, {:.0} times real time", summary.sim_s, summary.wall_s, summary.real_time_factor)),
+        (
+            "simulated",
+            format!("{} s in {:.3} s, {:.0} times real time", summary.sim_s, summary.wall_s, summary.real_time_factor),
+        ),
         ("bodies", summary.bodies.to_string()),
         ("steps", format!("{} ({} substeps)", summary.steps, summary.settings.substeps)),
         ("events", summary.events.to_string()),

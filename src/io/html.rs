@@ -134,29 +134,18 @@ pub fn render(playback: &Playback<'_>) -> String {
             ("style", STYLE),
             ("script", &SCRIPTS.concat()),
             ("index", &escape_json(&index)),
-            (
-                "times",
-                &BASE64.encode(f64_bytes(playback.times_s.iter().copied())),
-            ),
+            ("times", &BASE64.encode(f64_bytes(playback.times_s.iter().copied()))),
             ("poses", &BASE64.encode(f32_bytes(poses(playback, centre)))),
-            (
-                "energy",
-                &BASE64.encode(f64_bytes(energy(&playback.energy))),
-            ),
+            ("energy", &BASE64.encode(f64_bytes(energy(&playback.energy)))),
             ("marks", &BASE64.encode(f64_bytes(mark_numbers.into_iter()))),
-            (
-                "mark_names",
-                &BASE64.encode(u32_bytes(mark_names.into_iter())),
-            ),
+            ("mark_names", &BASE64.encode(u32_bytes(mark_names.into_iter()))),
         ],
     )
 }
 
 /// The middle of the box round all finite positions of the moving bodies; of all bodies where none moves.
 fn centre(playback: &Playback<'_>) -> [f64; 3] {
-    middle(playback, |body| !body.fixed)
-        .or_else(|| middle(playback, |_| true))
-        .unwrap_or([0.0; 3])
+    middle(playback, |body| !body.fixed).or_else(|| middle(playback, |_| true)).unwrap_or([0.0; 3])
 }
 
 fn middle(playback: &Playback<'_>, wanted: impl Fn(&BodyView) -> bool) -> Option<[f64; 3]> {
@@ -206,10 +195,7 @@ fn index(playback: &Playback<'_>, centre: [f64; 3], names: Names) -> Value {
 
 fn shape(shape: &Shape) -> Value {
     match shape {
-        Shape::Mesh {
-            vertices,
-            triangles,
-        } => {
+        Shape::Mesh { vertices, triangles } => {
             let vertices = f32_bytes(vertices.iter().flatten().copied());
             let triangles = u32_bytes(triangles.iter().flatten().copied());
             json!({ "mesh": { "vertices": BASE64.encode(vertices), "triangles": BASE64.encode(triangles) } })
@@ -267,9 +253,7 @@ fn marks(marks: &[Mark], names: &mut Names) -> (Vec<f64>, Vec<u32>) {
 }
 
 fn energy(samples: &[EnergySample]) -> impl Iterator<Item = f64> + '_ {
-    samples
-        .iter()
-        .flat_map(|e| [e.time_s, e.kinetic_j, e.potential_j, e.total_j])
+    samples.iter().flat_map(|e| [e.time_s, e.kinetic_j, e.potential_j, e.total_j])
 }
 
 fn f64_bytes(values: impl Iterator<Item = f64>) -> Vec<u8> {
@@ -281,9 +265,7 @@ fn f64_bytes(values: impl Iterator<Item = f64>) -> Vec<u8> {
     reason = "a picture needs no more than f32, and its values are small: the scene's centre is taken off in f64"
 )]
 fn f32_bytes(values: impl Iterator<Item = f64>) -> Vec<u8> {
-    values
-        .flat_map(|value| (value as f32).to_le_bytes())
-        .collect()
+    values.flat_map(|value| (value as f32).to_le_bytes()).collect()
 }
 
 fn u32_bytes(values: impl Iterator<Item = u32>) -> Vec<u8> {
@@ -313,9 +295,7 @@ fn escape_html(text: &str) -> String {
 /// Puts `parts` into the template's `{{name}}` places in one pass: what is put in is not looked at again, so a scene
 /// called `{{script}}` stays a name.
 fn fill(template: &str, parts: &[(&str, &str)]) -> String {
-    let mut page = String::with_capacity(
-        template.len() + parts.iter().map(|(_, part)| part.len()).sum::<usize>(),
-    );
+    let mut page = String::with_capacity(template.len() + parts.iter().map(|(_, part)| part.len()).sum::<usize>());
     let mut rest = template;
     while let Some((before, after)) = rest.split_once("{{") {
         page.push_str(before);

@@ -25,18 +25,35 @@ fn rows(out: &mut dyn Write, header: &[&str], rows: impl Iterator<Item = Vec<Str
 /// The output fails.
 pub fn trajectory(out: &mut dyn Write, names: &[String], frames: &[Frame]) -> io::Result<()> {
     const HEADER: [&str; 15] = [
-        "time_s", "body", "x_m", "y_m", "z_m", "r_1", "r_e23", "r_e31", "r_e12", "vx_m_s", "vy_m_s", "vz_m_s",
-        "omega_e23_world", "omega_e31_world", "omega_e12_world",
+        "time_s",
+        "body",
+        "x_m",
+        "y_m",
+        "z_m",
+        "r_1",
+        "r_e23",
+        "r_e31",
+        "r_e12",
+        "vx_m_s",
+        "vy_m_s",
+        "vz_m_s",
+        "omega_e23_world",
+        "omega_e31_world",
+        "omega_e12_world",
     ];
     let all = frames.iter().flat_map(|frame| frame.bodies.iter().zip(names).map(move |body| (frame.time_s, body)));
-    rows(out, &HEADER, all.map(|(time_s, (body, name))| {
-        let mut row = vec![number(time_s), name.clone()];
-        row.extend(<[f64; 3]>::from(body.position).map(number));
-        row.extend(<[f64; 4]>::from(body.rotor).map(number));
-        row.extend(<[f64; 3]>::from(body.velocity).map(number));
-        row.extend(<[f64; 3]>::from(body.omega_world).map(number));
-        row
-    }))
+    rows(
+        out,
+        &HEADER,
+        all.map(|(time_s, (body, name))| {
+            let mut row = vec![number(time_s), name.clone()];
+            row.extend(<[f64; 3]>::from(body.position).map(number));
+            row.extend(<[f64; 4]>::from(body.rotor).map(number));
+            row.extend(<[f64; 3]>::from(body.velocity).map(number));
+            row.extend(<[f64; 3]>::from(body.omega_world).map(number));
+            row
+        }),
+    )
 }
 
 /// One row a frame.
@@ -46,12 +63,17 @@ pub fn trajectory(out: &mut dyn Write, names: &[String], frames: &[Frame]) -> io
 pub fn energy(out: &mut dyn Write, samples: &[EnergySample]) -> io::Result<()> {
     const HEADER: [&str; 10] =
         ["time_s", "kinetic_j", "potential_j", "total_j", "px", "py", "pz", "l_e23", "l_e31", "l_e12"];
-    rows(out, &HEADER, samples.iter().map(|EnergySample { time_s, totals }| {
-        let mut row = [*time_s, totals.kinetic, totals.potential, totals.kinetic + totals.potential].map(number).to_vec();
-        row.extend(<[f64; 3]>::from(totals.momentum).map(number));
-        row.extend(<[f64; 3]>::from(totals.angular_momentum).map(number));
-        row
-    }))
+    rows(
+        out,
+        &HEADER,
+        samples.iter().map(|EnergySample { time_s, totals }| {
+            let mut row =
+                [*time_s, totals.kinetic, totals.potential, totals.kinetic + totals.potential].map(number).to_vec();
+            row.extend(<[f64; 3]>::from(totals.momentum).map(number));
+            row.extend(<[f64; 3]>::from(totals.angular_momentum).map(number));
+            row
+        }),
+    )
 }
 
 /// One row an event.
@@ -61,11 +83,16 @@ pub fn energy(out: &mut dyn Write, samples: &[EnergySample]) -> io::Result<()> {
 pub fn events(out: &mut dyn Write, names: &[String], events: &[Event]) -> io::Result<()> {
     const HEADER: [&str; 12] =
         ["time_s", "kind", "a", "b", "x_m", "y_m", "z_m", "nx", "ny", "nz", "separation_m", "impulse_n_s"];
-    rows(out, &HEADER, events.iter().map(|event| {
-        let mut row = vec![number(event.time_s), event.kind.name().into(), names[event.a].clone(), names[event.b].clone()];
-        row.extend(<[f64; 3]>::from(event.point).map(number));
-        row.extend(<[f64; 3]>::from(event.normal).map(number));
-        row.extend([event.separation, event.impulse].map(number));
-        row
-    }))
+    rows(
+        out,
+        &HEADER,
+        events.iter().map(|event| {
+            let mut row =
+                vec![number(event.time_s), event.kind.name().into(), names[event.a].clone(), names[event.b].clone()];
+            row.extend(<[f64; 3]>::from(event.point).map(number));
+            row.extend(<[f64; 3]>::from(event.normal).map(number));
+            row.extend([event.separation, event.impulse].map(number));
+            row
+        }),
+    )
 }

@@ -11,7 +11,7 @@ use crate::geometry::mesh_checks::{self, Severity};
 use crate::io::mesh_file::read_mesh;
 use crate::rigid::{Bodies, Force, Forces, Inertia};
 use crate::scene::description::{self, Body, Orientation, Scene, Shape};
-use crate::scene::{Diagnostic, SceneSource, solids};
+use crate::scene::{Diagnostic, Numbers, SceneSource, solids};
 use crate::simulation::{Setup, World};
 use std::ops::Range;
 
@@ -152,7 +152,7 @@ fn orientation<T: Real>(body: &Body) -> Found<Rotor<T>> {
 }
 
 fn omega_body<T: Real>(body: &Body, rotor: Rotor<T>) -> Bivector<T> {
-    let components = |given: &toml::Spanned<description::Numbers<3>>| Bivector::from(given.get_ref().0).map(T::from_f64);
+    let components = |given: &toml::Spanned<Numbers<3>>| Bivector::from(given.get_ref().0).map(T::from_f64);
     match (&body.omega_body_rad_s, &body.omega_world_rad_s) {
         (Some(given), _) => components(given),
         (None, Some(given)) => rotor.rev().apply(components(given)),
@@ -224,7 +224,7 @@ fn usable(mesh: &Mesh, span: &Range<usize>) -> Found<()> {
 }
 
 fn forces<T: Real>(scene: &Scene) -> Forces<T> {
-    let vector = |numbers: &toml::Spanned<description::Numbers<3>>| Vector::from(numbers.get_ref().0).map(T::from_f64);
+    let vector = |numbers: &toml::Spanned<Numbers<3>>| Vector::from(numbers.get_ref().0).map(T::from_f64);
     let number = |value: &toml::Spanned<f64>| *value.get_ref();
     let forces = scene.force.iter().filter_map(|force| {
         let body_idx = scene.body_idx(force.body().get_ref())?;

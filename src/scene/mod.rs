@@ -28,12 +28,15 @@
 //! #:schema ./scene.schema.json
 //! ```
 
+pub mod build;
 mod check;
 pub mod description;
 mod diagnostic;
 mod overrides;
+pub mod plan;
 mod read;
 mod schema;
+mod solids;
 mod source;
 mod suggest;
 mod translate;

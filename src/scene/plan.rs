@@ -69,7 +69,8 @@ pub fn steps(scene: &Scene) -> u64 {
 pub fn plan(scene: &Scene) -> Plan {
     let moving: Vec<&Body> = scene.body.iter().filter(|body| !body.fixed).collect();
     let shaped = |body: &&Body| body.shape.is_some();
-    let (shaped_all, shaped_moving) = (scene.body.iter().filter(shaped).count(), moving.iter().copied().filter(shaped).count());
+    let (shaped_all, shaped_moving) =
+        (scene.body.iter().filter(shaped).count(), moving.iter().copied().filter(shaped).count());
     let fixed = shaped_all - shaped_moving;
     // Pairs of which one moves.
     let collision_pairs = shaped_moving * fixed + shaped_moving * shaped_moving.saturating_sub(1) / 2;
@@ -99,14 +100,25 @@ pub fn plan(scene: &Scene) -> Plan {
         Scalar::F64 => scalar_name::<f64>(),
         Scalar::F32 => scalar_name::<f32>(),
     };
-    plan.model("rigid motion", format!("G(3,0) rotor form, RK4 with renormalisation, {scalar} with f64 world positions"));
+    plan.model(
+        "rigid motion",
+        format!("G(3,0) rotor form, RK4 with renormalisation, {scalar} with f64 world positions"),
+    );
     plan.choose(scene.gravity_m_s2.get_ref().0 != [0.0; 3], "gravity", "uniform", "`gravity_m_s2` is zero");
     let at_point = scene.force.iter().filter(|force| matches!(force, Force::AtPoint(_))).count();
-    plan.choose(at_point > 0, "forces at points", &format!("{at_point}, steps cut where they start and end"), "no [[force]] names one");
+    plan.choose(
+        at_point > 0,
+        "forces at points",
+        &format!("{at_point}, steps cut where they start and end"),
+        "no [[force]] names one",
+    );
     let drag = scene.force.len() - at_point;
     plan.choose(drag > 0, "drag", &format!("linear, {drag}"), "no [[force]] names one");
     let planes = scene.body.iter().any(|body| matches!(body.shape, Some(Shape::Plane(_))));
-    let how = format!("{collision_pairs} pairs; {}balls, vertices in bodies, edges through facets", if planes { "half-spaces, " } else { "" });
+    let how = format!(
+        "{collision_pairs} pairs; {}balls, vertices in bodies, edges through facets",
+        if planes { "half-spaces, " } else { "" }
+    );
     plan.choose(collision_pairs > 0, "collisions", &how, "no two bodies with shapes of which one moves");
     plan.leave_out("resting contact", "not modelled: bodies that stay in contact end the run");
     plan
@@ -146,9 +158,17 @@ impl fmt::Display for Plan {
             writeln!(f, "  {what:<18} {why}")?;
         }
         writeln!(f, "cost")?;
-        writeln!(f, "  {:<18} {} ({} moving), {} bytes of state each", "bodies", self.bodies, self.moving_bodies, self.state_bytes_per_body)?;
+        writeln!(
+            f,
+            "  {:<18} {} ({} moving), {} bytes of state each",
+            "bodies", self.bodies, self.moving_bodies, self.state_bytes_per_body
+        )?;
         let substeps = if self.substeps_per_step == 1 { "substep" } else { "substeps" };
-        writeln!(f, "  {:<18} {} of {} s, {} {substeps} each at {:.3} rad/s", "steps", self.steps, self.dt_s, self.substeps_per_step, self.fastest_spin_rad_s)?;
+        writeln!(
+            f,
+            "  {:<18} {} of {} s, {} {substeps} each at {:.3} rad/s",
+            "steps", self.steps, self.dt_s, self.substeps_per_step, self.fastest_spin_rad_s
+        )?;
         write!(f, "  {:<18} {} of all bodies, impacts apart", "rhs evaluations", self.expected_rhs_evals)
     }
 }

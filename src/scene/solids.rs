@@ -8,7 +8,7 @@ use crate::geometry::mesh::{Mesh, MeshError};
 ///
 /// # Errors
 /// Sizes that are not finite.
-pub fn cuboid(size: [f64; 3]) -> Result<Mesh, MeshError> {
+pub(super) fn cuboid(size: [f64; 3]) -> Result<Mesh, MeshError> {
     let half = size.map(|edge| edge * 0.5);
     let side = |index: usize, bit: usize| if index >> bit & 1 == 1 { half[bit] } else { -half[bit] };
     let vertices = (0..8).map(|index| Point::new(side(index, 0), side(index, 1), side(index, 2)));
@@ -21,7 +21,7 @@ pub fn cuboid(size: [f64; 3]) -> Result<Mesh, MeshError> {
 ///
 /// # Errors
 /// Sizes that are not finite.
-pub fn pyramid(base: f64, height: f64) -> Result<Mesh, MeshError> {
+pub(super) fn pyramid(base: f64, height: f64) -> Result<Mesh, MeshError> {
     let half = base * 0.5;
     let corners = [[-half, -half, 0.0], [half, -half, 0.0], [half, half, 0.0], [-half, half, 0.0], [0.0, 0.0, height]];
     let triangles = vec![[0, 2, 1], [0, 3, 2], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
@@ -32,12 +32,16 @@ pub fn pyramid(base: f64, height: f64) -> Result<Mesh, MeshError> {
 ///
 /// # Errors
 /// Coordinates that are not finite.
-pub fn tetrahedron(corners: [[f64; 3]; 4]) -> Result<Mesh, MeshError> {
+pub(super) fn tetrahedron(corners: [[f64; 3]; 4]) -> Result<Mesh, MeshError> {
     let coordinates = corners.map(|[x, y, z]| robust::Coord3D { x, y, z });
     let [a, b, c, d] = coordinates;
     // Positive when d lies below the plane of a, b, c seen counter-clockwise: then a, b, c is seen from outside.
     let outward = robust::orient3d(a, b, c, d) > 0.0;
-    let triangles = if outward { [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]] } else { [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]] };
+    let triangles = if outward {
+        [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]
+    } else {
+        [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+    };
     Mesh::new(corners.map(Point::from).to_vec(), triangles.to_vec())
 }
 
@@ -45,7 +49,7 @@ pub fn tetrahedron(corners: [[f64; 3]; 4]) -> Result<Mesh, MeshError> {
 /// diagonal: from `I_x = m (b² + c²) / 5` and its like, `a² = 5 (I_y + I_z - I_x) / 2m`. A lamina is given a small
 /// thickness, so that it can be seen.
 #[must_use]
-pub fn ellipsoid_half_axes(mass: f64, inertia: [[f64; 3]; 3]) -> [f64; 3] {
+pub(super) fn ellipsoid_half_axes(mass: f64, inertia: [[f64; 3]; 3]) -> [f64; 3] {
     let off_diagonal = inertia[0][1] != 0.0 || inertia[0][2] != 0.0 || inertia[1][2] != 0.0;
     let moments = match principal_axes(inertia) {
         Ok(axes) if off_diagonal => axes.moments,

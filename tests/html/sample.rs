@@ -9,9 +9,8 @@ const GRAVITY: f64 = 9.81;
 const RESTITUTION: f64 = 0.8;
 
 pub(crate) fn cube(half: f64) -> Shape {
-    let vertices = (0..8)
-        .map(|i| [i & 1, i >> 1 & 1, i >> 2 & 1].map(|bit| if bit == 1 { half } else { -half }))
-        .collect();
+    let vertices =
+        (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2 & 1].map(|bit| if bit == 1 { half } else { -half })).collect();
     let triangles = vec![
         [0, 2, 1],
         [1, 2, 3],
@@ -26,34 +25,16 @@ pub(crate) fn cube(half: f64) -> Shape {
         [1, 3, 5],
         [3, 7, 5],
     ];
-    Shape::Mesh {
-        vertices,
-        triangles,
-    }
+    Shape::Mesh { vertices, triangles }
 }
 
 pub(crate) fn pyramid(half: f64) -> Shape {
     // The centre of mass is at a quarter of the height.
     let (low, high) = (-0.5 * half, 1.5 * half);
-    let vertices = vec![
-        [-half, -half, low],
-        [half, -half, low],
-        [half, half, low],
-        [-half, half, low],
-        [0.0, 0.0, high],
-    ];
-    let triangles = vec![
-        [0, 2, 1],
-        [0, 3, 2],
-        [0, 1, 4],
-        [1, 2, 4],
-        [2, 3, 4],
-        [3, 0, 4],
-    ];
-    Shape::Mesh {
-        vertices,
-        triangles,
-    }
+    let vertices =
+        vec![[-half, -half, low], [half, -half, low], [half, half, low], [-half, half, low], [0.0, 0.0, high]];
+    let triangles = vec![[0, 2, 1], [0, 3, 2], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
+    Shape::Mesh { vertices, triangles }
 }
 
 /// One thrown body: where it starts, how fast, and how it turns.
@@ -70,21 +51,13 @@ pub(crate) struct Throw {
 impl Throw {
     /// Height and vertical velocity above the plane, and the impacts up to `time`: (time, speed before).
     fn vertical(&self, time: f64) -> (f64, f64, Vec<(f64, f64)>) {
-        let (mut height, mut speed, mut since, mut impacts) = (
-            self.start[2] - self.radius,
-            self.velocity[2],
-            0.0,
-            Vec::new(),
-        );
+        let (mut height, mut speed, mut since, mut impacts) =
+            (self.start[2] - self.radius, self.velocity[2], 0.0, Vec::new());
         loop {
             let landing = (speed + (speed * speed + 2.0 * GRAVITY * height).sqrt()) / GRAVITY;
             if since + landing > time || landing < 1e-3 {
                 let t = (time - since).min(landing);
-                return (
-                    height + speed * t - 0.5 * GRAVITY * t * t,
-                    speed - GRAVITY * t,
-                    impacts,
-                );
+                return (height + speed * t - 0.5 * GRAVITY * t * t, speed - GRAVITY * t, impacts);
             }
             since += landing;
             let before = GRAVITY * landing - speed;
@@ -101,39 +74,19 @@ impl Throw {
         let [a, b, c] = self.axis;
         let n = (a * a + b * b + c * c).sqrt();
         let [vx, vy, _] = self.velocity;
-        [
-            x + vx * time,
-            y + vy * time,
-            height + self.radius,
-            cos,
-            -a / n * sin,
-            -b / n * sin,
-            -c / n * sin,
-        ]
+        [x + vx * time, y + vy * time, height + self.radius, cos, -a / n * sin, -b / n * sin, -c / n * sin]
     }
 }
 
 /// Bodies of 1 kg thrown above a plane, recorded at 60 Hz, the whole moved by `offset`.
-pub(crate) fn thrown(
-    scene: &str,
-    throws: Vec<Throw>,
-    duration: f64,
-    offset: [f64; 3],
-) -> Playback<'_> {
+pub(crate) fn thrown(scene: &str, throws: Vec<Throw>, duration: f64, offset: [f64; 3]) -> Playback<'_> {
     let frames = (duration * 60.0).round() as usize;
     let times: Vec<f64> = (0..=frames).map(|k| k as f64 / 60.0).collect();
     let moved = |p: [f64; 3]| [p[0] + offset[0], p[1] + offset[1], p[2] + offset[2]];
     let floor = [offset[0], offset[1], offset[2], 1.0, 0.0, 0.0, 0.0];
     let mut poses = vec![vec![floor]; times.len()];
-    let mut energy: Vec<EnergySample> = times
-        .iter()
-        .map(|&time_s| EnergySample {
-            time_s,
-            kinetic_j: 0.0,
-            potential_j: 0.0,
-            total_j: 0.0,
-        })
-        .collect();
+    let mut energy: Vec<EnergySample> =
+        times.iter().map(|&time_s| EnergySample { time_s, kinetic_j: 0.0, potential_j: 0.0, total_j: 0.0 }).collect();
     let mut marks = Vec::new();
     for throw in &throws {
         for ((frame, sample), &time) in poses.iter_mut().zip(&mut energy).zip(&times) {
@@ -142,8 +95,7 @@ pub(crate) fn thrown(
             frame.push([x, y, z, pose[3], pose[4], pose[5], pose[6]]);
             let (height, vz, _) = throw.vertical(time);
             let [vx, vy, _] = throw.velocity;
-            sample.kinetic_j +=
-                0.5 * (vx * vx + vy * vy + vz * vz) + 0.05 * throw.rate * throw.rate;
+            sample.kinetic_j += 0.5 * (vx * vx + vy * vy + vz * vz) + 0.05 * throw.rate * throw.rate;
             sample.potential_j += GRAVITY * height;
         }
         for (time_s, speed) in throw.vertical(duration).2 {
@@ -155,39 +107,17 @@ pub(crate) fn thrown(
                 point: moved([pose[0], pose[1], 0.0]),
                 normal: [0.0, 0.0, 1.0],
                 impulse_n_s: (1.0 + RESTITUTION) * speed,
-                kind: if speed < 1.5 {
-                    "contact_persists"
-                } else {
-                    "impact"
-                }
-                .to_owned(),
+                kind: if speed < 1.5 { "contact_persists" } else { "impact" }.to_owned(),
             });
         }
     }
     for sample in &mut energy {
         sample.total_j = sample.kinetic_j + sample.potential_j;
     }
-    let floor = BodyView {
-        name: "floor".to_owned(),
-        fixed: true,
-        shape: Shape::Plane {
-            normal: [0.0, 0.0, 1.0],
-        },
-    };
-    let thrown = throws.into_iter().map(|t| BodyView {
-        name: t.name,
-        fixed: false,
-        shape: t.shape,
-    });
+    let floor = BodyView { name: "floor".to_owned(), fixed: true, shape: Shape::Plane { normal: [0.0, 0.0, 1.0] } };
+    let thrown = throws.into_iter().map(|t| BodyView { name: t.name, fixed: false, shape: t.shape });
     let bodies = core::iter::once(floor).chain(thrown).collect();
-    Playback {
-        scene,
-        bodies,
-        times_s: times,
-        poses,
-        marks,
-        energy,
-    }
+    Playback { scene, bodies, times_s: times, poses, marks, energy }
 }
 
 /// A cube, a pyramid and an ellipsoid above a plane.
@@ -204,29 +134,11 @@ pub(crate) fn tumbling(scene: &str, offset: [f64; 3]) -> Playback<'_> {
     thrown(
         scene,
         vec![
-            throw(
-                "tumbling cube",
-                cube(0.3),
-                0.5,
-                [-1.2, -0.4, 2.4],
-                [0.5, 0.1, 0.5],
-                [1.0, 1.0, 0.3],
-                2.1,
-            ),
-            throw(
-                "pyramid",
-                pyramid(0.35),
-                0.5,
-                [0.6, 0.7, 1.8],
-                [-0.25, -0.1, 1.0],
-                [0.2, -1.0, 0.6],
-                -1.7,
-            ),
+            throw("tumbling cube", cube(0.3), 0.5, [-1.2, -0.4, 2.4], [0.5, 0.1, 0.5], [1.0, 1.0, 0.3], 2.1),
+            throw("pyramid", pyramid(0.35), 0.5, [0.6, 0.7, 1.8], [-0.25, -0.1, 1.0], [0.2, -1.0, 0.6], -1.7),
             throw(
                 "ellipsoid",
-                Shape::Ellipsoid {
-                    semi_axes: [0.5, 0.3, 0.2],
-                },
+                Shape::Ellipsoid { semi_axes: [0.5, 0.3, 0.2] },
                 0.5,
                 [1.3, -0.8, 1.2],
                 [-0.3, 0.25, 2.0],
@@ -245,22 +157,12 @@ pub(crate) fn crowd(scene: &str, n: usize) -> Playback<'_> {
     let throws = (0..n)
         .map(|i| {
             let (column, row) = ((i % side) as f64, (i / side) as f64);
-            let shape = if i % 2 == 0 {
-                cube(0.25)
-            } else {
-                Shape::Ellipsoid {
-                    semi_axes: [0.35, 0.25, 0.15],
-                }
-            };
+            let shape = if i % 2 == 0 { cube(0.25) } else { Shape::Ellipsoid { semi_axes: [0.35, 0.25, 0.15] } };
             Throw {
                 name: format!("body {i}"),
                 shape,
                 radius: 0.43,
-                start: [
-                    column,
-                    row,
-                    1.0 + 0.3 * (0.7 * column).sin() + 0.3 * (0.9 * row).cos(),
-                ],
+                start: [column, row, 1.0 + 0.3 * (0.7 * column).sin() + 0.3 * (0.9 * row).cos()],
                 velocity: [0.0, 0.0, 3.0 + (0.8 * column + 0.5 * row).sin()],
                 axis: [column + 1.0, row - 3.0, 2.0],
                 rate: 2.0 + 0.1 * column,
