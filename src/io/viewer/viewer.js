@@ -42,6 +42,7 @@ class Viewer {
         const renderer = new WebGlRenderer(fresh, this.stage);
         fresh.addEventListener("webglcontextlost", () => {
           this.renderer = this.makeRenderer(false);
+          this.writeHeader();
           this.changed();
         });
         return renderer;
