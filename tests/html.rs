@@ -76,11 +76,8 @@ fn a_hostile_name_adds_no_markup_and_comes_back_unchanged() {
     let plain = render(&hostile("plain"));
     for name in HOSTILE {
         let page = render(&hostile(name));
-        for part in ["<script", "</script", "<!--", "<img", "</title", "onerror=", "\u{2028}", "\u{2029}"] {
-            // "onerror=" is harmless text; only together with "<" would it be markup.
-            if part != "onerror=" {
-                assert_eq!(count(&page, part), count(&plain, part), "{part:?} from the name {name:?}");
-            }
+        for part in ["<script", "</script", "<!--", "<img", "</title", "\u{2028}", "\u{2029}"] {
+            assert_eq!(count(&page, part), count(&plain, part), "{part:?} from the name {name:?}");
         }
         let index = index(&page);
         assert_eq!(index["scene"], name);
@@ -148,11 +145,11 @@ fn poses_come_back_relative_to_the_centre() {
 
 #[test]
 fn a_scene_far_from_the_origin_keeps_its_digits() {
-    // 1e6 m is 2^20 m and less than 2^20 m: f64 has steps of 2^-33 m there, f32 steps of 2^-4 m.
+    // 1e6 m is between 2^19 and 2^20 m: f64 has steps of 2^-33 m there, f32 steps of 2^-4 m.
     let offset = [1e6, -1e6, 1e6];
     let (near, far) = (render(&sample::tumbling("s", [0.0; 3])), render(&sample::tumbling("s", offset)));
-    // Half a step each for the moved position, the middle, and the f32 of at most 4 m.
-    let bound = 2.0 * 2.0_f64.powi(-33) + 4.0 * f64::from(f32::EPSILON);
+    // Half a step each for the moved position, the middle, and their difference; then an f32 below 4 m, rounded twice.
+    let bound = 1.5 * 2.0_f64.powi(-33) + 4.0 * f64::from(f32::EPSILON);
     let worst = f32s(block(&near, "ga-poses"))
         .into_iter()
         .zip(f32s(block(&far, "ga-poses")))
