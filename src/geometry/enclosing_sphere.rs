@@ -13,7 +13,7 @@
 
 use alloc::vec::Vec;
 
-use crate::algebra::cga::Point;
+use crate::algebra::cga::{self, Point, Round};
 use nalgebra::Vector3;
 
 /// A ball: all points within `radius` of `centre`.
@@ -186,8 +186,8 @@ impl<'a> Cloud<'a> {
         for size in 1..=support.len().min(3) {
             for subset in (1u32..1 << support.len()).filter(|s| s.count_ones() as usize == size) {
                 let chosen = (0..support.len()).filter(|i| subset >> i & 1 == 1).map(|i| support[i]);
-                let chosen = core::iter::once(outside).chain(chosen).collect();
-                let Some(candidate) = self.candidate(chosen) else {
+                let chosen: Vec<usize> = core::iter::once(outside).chain(chosen).collect();
+                let Some(candidate) = self.candidate(&chosen) else {
                     continue;
                 };
                 let distance_sq = |&i: &usize| (self.local(i) - candidate.centre).norm_squared();
@@ -201,8 +201,21 @@ impl<'a> Cloud<'a> {
         best
     }
 
-    /// The smallest ball with these points on its surface, if they are in general position, and what it proves.
-    fn candidate(&self, support: Vec<usize>) -> Option<Candidate> {
+    /// The smallest ball with these points on its surface, if they are in general position, and what it proves. It is
+    /// formed in the frame of each of the points in turn, and the one with the least defect is kept: which frame loses
+    /// the fewest digits depends on how the points lie.
+    fn candidate(&self, support: &[usize]) -> Option<Candidate> {
+        let frames = 0..support.len();
+        let formed = frames.filter_map(|first| {
+            let candidate = self.candidate_in_first_frame([&support[first..], &support[..first]].concat())?;
+            let distances = support.iter().map(|&i| (self.local(i) - candidate.centre).norm_squared());
+            let reach_sq = distances.fold(0.0, f64::max);
+            Some((candidate.defect(reach_sq), candidate))
+        });
+        formed.reduce(|best, next| if next.0 < best.0 { next } else { best }).map(|(_, candidate)| candidate)
+    }
+
+    fn candidate_in_first_frame(&self, support: Vec<usize>) -> Option<Candidate> {
         let centre = self.circumcentre(&support)?;
         let spokes: Vec<Vector3<f64>> = support.iter().map(|&i| self.local(i) - centre).collect();
         let weights = hull_weights(&spokes);
@@ -282,27 +295,27 @@ struct LocalRound {
     rho_sq: f64,
 }
 
-/// The smallest sphere through the local origin and `b`: centre b/2.
+/// The smallest sphere through the local origin and `b`: `(A + B)/2 + (A . B)/2 ninf`.
 fn round_of_two(b: Point<f64>) -> LocalRound {
-    let b = Vector3::new(b.x, b.y, b.z);
-    local_round(b * 0.5)
+    local_round(cga::pair_sphere(Point::origin(), b).centre())
 }
 
-/// The smallest sphere through the local origin, `b` and `c`: with n = b x c, centre (b² c x n + c² n x b) / 2n².
+/// The smallest sphere through the local origin, `b` and `c`: `K ^ (K ^ ninf)*` with their circle K.
 fn round_of_three(b: Point<f64>, c: Point<f64>) -> LocalRound {
-    let [b, c] = [b, c].map(|p| Vector3::new(p.x, p.y, p.z));
-    let n = b.cross(&c);
-    local_round((c.cross(&n) * b.norm_squared() + n.cross(&b) * c.norm_squared()) / (2.0 * n.norm_squared()))
+    over_weight(cga::circle_sphere_relative(Point::origin(), b, c))
 }
 
-/// The sphere through the local origin, `b`, `c` and `d`: centre (b² c x d + c² d x b + d² b x c) / 2 b.(c x d).
+/// The sphere through the local origin, `b`, `c` and `d`: the dual of their wedge.
 fn round_of_four(b: Point<f64>, c: Point<f64>, d: Point<f64>) -> LocalRound {
-    let [b, c, d] = [b, c, d].map(|p| Vector3::new(p.x, p.y, p.z));
-    let (cd, db, bc) = (c.cross(&d), d.cross(&b), b.cross(&c));
-    local_round((cd * b.norm_squared() + db * c.norm_squared() + bc * d.norm_squared()) / (2.0 * b.dot(&cd)))
+    over_weight(cga::circumsphere_relative(Point::origin(), b, c, d))
+}
+
+/// A round through the local origin; one of no weight has a centre that is not finite, which its users look for.
+fn over_weight(round: Round<f64>) -> LocalRound {
+    local_round(Point::new(round.e1 / round.no, round.e2 / round.no, round.e3 / round.no))
 }
 
 /// The sphere through the local origin with the given centre.
-fn local_round(centre: Vector3<f64>) -> LocalRound {
-    LocalRound { centre: Point { x: centre.x, y: centre.y, z: centre.z }, rho_sq: centre.norm_squared() }
+fn local_round(centre: Point<f64>) -> LocalRound {
+    LocalRound { centre, rho_sq: centre.position().norm_sq() }
 }
