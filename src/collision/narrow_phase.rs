@@ -16,6 +16,10 @@ use crate::geometry::closest_point_on_line;
 use crate::rigid::Bodies;
 use alloc::vec::Vec;
 
+/// Edges whose directions differ by less than this many epsilons (as the sine of their angle) are parallel: their common
+/// normal would be made of the roundings of the cross product, at most 5 unit roundoffs for each of two products.
+const PARALLEL_EPSILONS: f64 = 8.0;
+
 /// What a body is to collision tests.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Collider<T> {
@@ -31,6 +35,9 @@ pub enum Collider<T> {
 #[derive(Clone, Debug, Default)]
 pub struct NarrowPhase<T> {
     moved: Vec<Point<T>>,
+    /// Pairs of edges that have met already, in the order (lower body, higher body): an edge passes through both facets
+    /// beside the edge that it struck, and is met again with the roles exchanged.
+    met: Vec<[usize; 2]>,
 }
 
 impl<T: Real> NarrowPhase<T> {
@@ -76,9 +83,10 @@ impl<T: Real> NarrowPhase<T> {
         if found.len() > before {
             return;
         }
-        in_second.edges_through(&self.moved, found);
+        self.met.clear();
+        in_second.edges_through(&self.moved, &mut self.met, found);
         self.move_vertices(&in_first);
-        in_first.edges_through(&self.moved, found);
+        in_first.edges_through(&self.moved, &mut self.met, found);
     }
 
     fn move_vertices(&mut self, frame: &Frame<'_, T>) {
@@ -120,42 +128,58 @@ impl<T: Real> Frame<'_, T> {
         }
     }
 
-    fn edges_through(&self, moved: &[Point<T>], found: &mut Vec<Contact<T>>) {
-        for edge in &self.guest.1.edges {
+    fn edges_through(&self, moved: &[Point<T>], met: &mut Vec<[usize; 2]>, found: &mut Vec<Contact<T>>) {
+        for (guest_edge, edge) in self.guest.1.edges.iter().enumerate() {
             let [start, end] = edge.map(|index| moved[index]);
             for facet in &self.host.1.facets {
-                if let Some(crossing) = facet.crossing(start, end) {
-                    found.extend(self.edge_pair(start, end, crossing.point, facet.plane));
+                let Some(crossing) = facet.crossing(start, end) else { continue };
+                let Some(host_edge) = self.nearest_edge(crossing.point) else { continue };
+                let pair = if self.host.0 < self.guest.0 { [host_edge, guest_edge] } else { [guest_edge, host_edge] };
+                if !met.contains(&pair) {
+                    met.push(pair);
+                    found.push(self.edge_contact(host_edge, start, end, crossing.point, facet.plane));
                 }
             }
         }
     }
 
-    /// The contact of the guest's edge with the host's sharp edge that is nearest to the crossing.
-    fn edge_pair(&self, start: Point<T>, end: Point<T>, crossing: Point<T>, plane: Plane<T>) -> Option<Contact<T>> {
+    /// The host's sharp edge that is nearest to a point, by the point's reflection in each edge's line.
+    fn nearest_edge(&self, point: Point<T>) -> Option<usize> {
         let host = self.host.1;
-        let nearest = host.edges.iter().filter_map(|edge| {
-            let [from, to] = edge.map(|index| host.vertices[index]);
+        let distances = host.edges.iter().enumerate().filter_map(|(index, edge)| {
+            let [from, to] = edge.map(|vertex| host.vertices[vertex]);
             let line: Line<T> = from ^ to ^ Infinity;
-            let foot = closest_point_on_line(crossing, line).ok()?;
-            Some((crossing.distance_sq_to(foot), from, to))
+            let foot = closest_point_on_line(point, line).ok()?;
+            Some((point.distance_sq_to(foot), index))
         });
-        let (_, from, to) = nearest.reduce(|best, next| if next.0 < best.0 { next } else { best })?;
+        distances.reduce(|best, next| if next.0 < best.0 { next } else { best }).map(|(_, index)| index)
+    }
+
+    /// The contact of the guest's edge with one of the host's, at the crossing; the normal is common to both edges.
+    fn edge_contact(
+        &self,
+        host_edge: usize,
+        start: Point<T>,
+        end: Point<T>,
+        crossing: Point<T>,
+        plane: Plane<T>,
+    ) -> Contact<T> {
+        let [from, to] = self.host.1.edges[host_edge].map(|vertex| self.host.1.vertices[vertex]);
         let (edge, other) = (from.displacement_to(to), start.displacement_to(end));
         let plane_of_both = edge ^ other;
         let norm = plane_of_both.norm_sq().sqrt();
+        let parallel_below = T::from_f64(PARALLEL_EPSILONS) * T::EPSILON * (edge.norm_sq() * other.norm_sq()).sqrt();
         // Parallel edges have no common normal of their own; the facet's is one that both share.
-        let parallel = !(norm > T::ratio(8, 1) * T::EPSILON * (edge.norm_sq() * other.norm_sq()).sqrt());
-        let mut normal = if parallel {
-            plane.normal()
-        } else {
+        let mut normal = if norm > parallel_below {
             Vector::new(plane_of_both.e23, plane_of_both.e31, plane_of_both.e12) / norm
+        } else {
+            plane.normal()
         };
         // Out of the host: its centre of mass, the origin of this frame, lies behind every supporting plane.
         if (normal | from.position()) < T::zero() {
             normal = -normal;
         }
-        Some(self.contact(crossing, normal, normal | from.displacement_to(start)))
+        self.contact(crossing, normal, normal | from.displacement_to(start))
     }
 }
 

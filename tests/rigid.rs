@@ -1,0 +1,220 @@
+//! Laws of rigid motion in the rotor form: order, closed forms, conservation, frames, and that the misprinted equation
+//! fails them.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use ga_physics::algebra::cga::Point;
+use ga_physics::algebra::g3::{Bivector, Rotor, Vector};
+use ga_physics::ode::Rk4;
+use ga_physics::rigid::rotor::{self, AdvanceError, Integrator};
+use ga_physics::rigid::{Bodies, BodyError, Force, Forces, Inertia, Rates, totals};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+fn diagonal(moments: [f64; 3]) -> [[f64; 3]; 3] {
+    std::array::from_fn(|r| std::array::from_fn(|c| if r == c { moments[r] } else { 0.0 }))
+}
+
+/// One body at the origin with the given angular velocity in its own frame.
+fn spinning(mass: f64, moments: [f64; 3], omega_body: [f64; 3]) -> (Bodies<f64>, Vec<Inertia<f64>>) {
+    let inertia = Inertia::new(mass, diagonal(moments)).unwrap();
+    let mut bodies = Bodies::default();
+    let angular_momentum = inertia.momentum_of(Bivector::from(omega_body));
+    bodies.push(Point::origin(), Rotor::default(), Vector::default(), angular_momentum);
+    (bodies, vec![inertia])
+}
+
+fn run(bodies: &mut Bodies<f64>, inertias: &[Inertia<f64>], forces: &Forces<f64>, dt: f64, steps: u32) {
+    let mut integrator = Integrator::new(bodies);
+    for step in 0..steps {
+        integrator.advance(bodies, inertias, forces, f64::from(step) * dt, dt).unwrap();
+    }
+}
+
+/// The quaternion `w + x i + y j + z k` is the rotor `w - x e23 - y e31 - z e12`.
+fn quaternion(rotor: Rotor<f64>) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_quaternion(Quaternion::new(rotor.s, -rotor.e23, -rotor.e31, -rotor.e12))
+}
+
+/// An independent reference: the free body's Hamiltonian split into rotations about its three axes, each exact
+/// (McLachlan 1993, Reich 1994), composed to order 6 (Yoshida 1990, solution A), on nalgebra's quaternions.
+fn split_reference(moments: [f64; 3], omega_body: [f64; 3], duration: f64, steps: u32) -> UnitQuaternion<f64> {
+    let mut momentum = Vector3::from_fn(|i, _| moments[i] * omega_body[i]);
+    let mut attitude = UnitQuaternion::identity();
+    let turn = |axis: usize, h: f64, momentum: &mut Vector3<f64>, attitude: &mut UnitQuaternion<f64>| {
+        let mut rotation = Vector3::zeros();
+        rotation[axis] = momentum[axis] / moments[axis] * h;
+        let rotation = UnitQuaternion::from_scaled_axis(rotation);
+        *attitude *= rotation;
+        *momentum = rotation.inverse() * *momentum;
+    };
+    const OUTER: [f64; 3] = [0.784_513_610_477_560, 0.235_573_213_359_357, -1.177_679_984_178_87];
+    let middle = 1.0 - 2.0 * OUTER.iter().sum::<f64>();
+    let weights = [OUTER[0], OUTER[1], OUTER[2], middle, OUTER[2], OUTER[1], OUTER[0]];
+    let h = duration / f64::from(steps);
+    for _ in 0..steps {
+        for weight in weights {
+            for (axis, share) in [(0, 0.5), (1, 0.5), (2, 1.0), (1, 0.5), (0, 0.5)] {
+                turn(axis, h * weight * share, &mut momentum, &mut attitude);
+            }
+        }
+    }
+    attitude
+}
+
+#[test]
+fn the_tennis_racket_agrees_with_an_independent_reference() {
+    let (moments, omega, duration) = ([1.0, 2.0, 3.0], [0.01, 1.0, 0.01], 100.0);
+    let reference = split_reference(moments, omega, duration, 20_000);
+    let coarser = split_reference(moments, omega, duration, 10_000);
+    let trust = reference.angle_to(&coarser);
+    assert!(trust < 1e-9, "the reference itself is only good to {trust:e} rad");
+    let (mut bodies, inertias) = spinning(1.0, moments, omega);
+    run(&mut bodies, &inertias, &Forces::default(), 0.01, 10_000);
+    let error = quaternion(bodies.rotor[0]).angle_to(&reference);
+    println!("attitude error {error:e} rad, reference good to {trust:e} rad");
+    assert!(error < 1e-6, "attitude error {error:e} rad");
+    assert!(error > trust, "the method cannot be better than the reference");
+}
+
+#[test]
+fn the_observed_order_is_four() {
+    let (moments, omega, duration) = ([1.0, 2.0, 3.5], [0.3, 0.2, 0.4], 4.0);
+    let reference = split_reference(moments, omega, duration, 4000);
+    let error = |steps: u32| {
+        let (mut bodies, inertias) = spinning(1.0, moments, omega);
+        run(&mut bodies, &inertias, &Forces::default(), duration / f64::from(steps), steps);
+        quaternion(bodies.rotor[0]).angle_to(&reference)
+    };
+    // Steps small enough for one substep each.
+    let errors = [100, 200, 400].map(error);
+    for pair in errors.windows(2) {
+        let order = (pair[0] / pair[1]).log2();
+        assert!((order - 4.0).abs() < 0.15, "observed order {order}, errors {errors:?}");
+    }
+}
+
+#[test]
+fn the_misprinted_equation_fails() {
+    // The report prints Rdot = -1/2 Omega_body R. The same integrator, the same body:
+    let (moments, omega, duration, steps) = ([1.0, 2.0, 3.5], [0.3, 0.2, 0.4], 4.0, 400_u32);
+    let reference = split_reference(moments, omega, duration, 4000);
+    let attitude = |misprint: bool| {
+        let (mut bodies, inertias) = spinning(1.0, moments, omega);
+        let mut rk4 = Rk4::new(bodies.clone(), Rates::zeros(1));
+        for _ in 0..steps {
+            rk4.step(&mut bodies, 0.0, duration / f64::from(steps), |_, state, rates| {
+                rotor::rhs(state, &inertias, Vector::default(), std::iter::empty::<&Force<f64>>(), rates);
+                if misprint {
+                    rates.rotor[0] = (state.omega_body(0, &inertias[0]) * state.rotor[0]) * -0.5;
+                }
+            });
+            rotor::renormalise(&mut bodies, 0.0).unwrap();
+        }
+        quaternion(bodies.rotor[0]).angle_to(&reference)
+    };
+    assert!(attitude(false) < 1e-9);
+    assert!(attitude(true) > 0.1, "the misprint should be seen");
+}
+
+#[test]
+fn a_spin_about_a_principal_axis_is_a_uniform_rotation() {
+    // About +z by the right-hand rule: e1 goes towards e2.
+    let (mut bodies, inertias) = spinning(1.0, [1.0, 2.0, 3.0], [0.0, 0.0, 2.0]);
+    run(&mut bodies, &inertias, &Forces::default(), 0.01, 50);
+    let image = bodies.rotor[0].apply(Vector::new(1.0, 0.0, 0.0));
+    let expected = Vector::new(1.0_f64.cos(), 1.0_f64.sin(), 0.0);
+    // RK4 at 0.01 rad a half-step: 50 * (0.01)^5 / 120.
+    assert!((image - expected).norm_sq().sqrt() < 1e-10, "{image:?}");
+}
+
+#[test]
+fn free_motion_keeps_momentum_exactly_and_energy_nearly() {
+    let (mut bodies, inertias) = spinning(2.0, [1.0, 2.0, 3.0], [0.5, 0.7, 0.3]);
+    bodies.momentum[0] = Vector::new(1.0, -2.0, 0.5);
+    let (p, l, start) = (bodies.momentum[0], bodies.angular_momentum[0], totals(&bodies, &inertias, Vector::default()));
+    run(&mut bodies, &inertias, &Forces::default(), 0.01, 1000);
+    assert_eq!((bodies.momentum[0], bodies.angular_momentum[0]), (p, l));
+    let drift = (totals(&bodies, &inertias, Vector::default()).kinetic - start.kinetic).abs() / start.kinetic;
+    assert!(drift < 1e-9, "energy drift {drift:e}");
+    let expected = Point::new(5.0, -10.0, 2.5);
+    assert!(bodies.position[0].distance_sq_to(expected).sqrt() < 1e-12);
+}
+
+#[test]
+fn gravity_and_drag_follow_their_closed_forms() {
+    let (mut bodies, inertias) = spinning(2.0, [0.5; 3], [0.0, 0.0, 3.0]);
+    bodies.momentum[0] = Vector::new(4.0, 0.0, 0.0);
+    let (k, k_angular, t) = (0.6, 0.2, 2.0);
+    let forces = Forces { gravity: Vector::default(), forces: vec![Force::LinearDrag { body_idx: 0, k, k_angular }] };
+    run(&mut bodies, &inertias, &forces, 0.005, 400);
+    let speed = 2.0 * (-k / 2.0 * t).exp();
+    assert!((bodies.momentum[0].e1 / 2.0 - speed).abs() < 1e-11);
+    let spin = 3.0 * (-k_angular / 0.5 * t).exp();
+    assert!((bodies.omega_world(0, &inertias[0]).e12 - spin).abs() < 1e-11);
+
+    let (mut bodies, inertias) = spinning(2.0, [0.5; 3], [0.0; 3]);
+    let forces = Forces { gravity: Vector::new(0.0, 0.0, -9.81), forces: vec![] };
+    run(&mut bodies, &inertias, &forces, 0.1, 10);
+    assert!((bodies.position[0].z + 0.5 * 9.81).abs() < 1e-13);
+}
+
+#[test]
+fn a_force_at_a_point_turns_by_the_right_hand_rule_and_ends_on_time() {
+    // A push along +y at +x turns about +z. It acts from 0.103 s to 0.287 s, which no step boundary meets.
+    let (mut bodies, inertias) = spinning(1.0, [1.0; 3], [0.0; 3]);
+    let push = Force::AtPoint {
+        body_idx: 0,
+        at_body: Vector::new(0.1, 0.0, 0.0),
+        force_world: Vector::new(0.0, 2.0, 0.0),
+        start_s: 0.103,
+        end_s: 0.287,
+    };
+    let forces = Forces { gravity: Vector::default(), forces: vec![push] };
+    run(&mut bodies, &inertias, &forces, 0.05, 10);
+    let impulse = 2.0 * (0.287 - 0.103);
+    assert!((bodies.momentum[0].e2 - impulse).abs() < 1e-14, "impulse {:?}", bodies.momentum[0]);
+    let spin = bodies.omega_world(0, &inertias[0]);
+    // The arm turns by at most 0.4 rad/s * 0.2 s, so the torque loses under 1 % of itself.
+    assert!(spin.e12 > 0.99 * 0.1 * impulse && spin.e12 <= 0.1 * impulse, "spin {spin:?}");
+    assert!(spin.e23.abs() < 1e-15 && spin.e31.abs() < 1e-15);
+    // x(0.5) = impulse * (0.5 - 0.287) + 2 * 0.184² / 2
+    let expected = impulse * (0.5 - 0.287) + 0.184 * 0.184;
+    assert!((bodies.position[0].y - expected).abs() < 1e-14);
+}
+
+#[test]
+fn f32_bodies_move_finely_far_from_the_origin() {
+    // 1e6 m away an f32 position would step by 6 cm; a millimetre a step must add up.
+    let inertia = Inertia::<f32>::new(1.0, diagonal([1.0, 2.0, 3.0])).unwrap();
+    let mut bodies = Bodies::<f32>::default();
+    let spin = inertia.momentum_of(Bivector::new(0.1, 0.2, 0.3));
+    bodies.push(Point::new(1e6, 0.0, 0.0), Rotor::default(), Vector::new(0.1, 0.0, 0.0), spin);
+    let mut integrator = Integrator::new(&bodies);
+    for step in 0..1000 {
+        integrator.advance(&mut bodies, &[inertia], &Forces::default(), f64::from(step) * 0.01, 0.01).unwrap();
+    }
+    // 0.1 is rounded to f32, and so is each of the thousand products.
+    assert!((bodies.position[0].x - 1e6 - 1.0).abs() < 1e-6, "{}", bodies.position[0].x - 1e6);
+    assert!(bodies.rotor[0].is_unit(4.0 * f32::EPSILON));
+}
+
+#[test]
+fn fast_spins_are_substepped_and_absurd_ones_refused() {
+    let (mut bodies, inertias) = spinning(1.0, [1.0, 2.0, 3.0], [0.0, 0.0, 29.0]);
+    let mut integrator = Integrator::new(&bodies);
+    let substeps = integrator.advance(&mut bodies, &inertias, &Forces::default(), 0.0, 0.01).unwrap();
+    assert_eq!(substeps, 10, "0.29 rad at 0.03 rad a substep");
+    let (mut bodies, inertias) = spinning(1.0, [1.0, 2.0, 3.0], [0.0, 0.0, 1e12]);
+    let refused = Integrator::new(&bodies).advance(&mut bodies, &inertias, &Forces::default(), 0.0, 0.01);
+    assert!(matches!(refused, Err(AdvanceError::Spin { body_idx: 0, .. })), "{refused:?}");
+}
+
+#[test]
+fn bad_masses_and_inertias_are_named() {
+    for mass in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(Inertia::<f64>::new(mass, diagonal([1.0; 3])), Err(BodyError::Mass(_))));
+    }
+    for moments in [[0.0, 1.0, 1.0], [-1.0, 1.0, 1.0], [f64::NAN, 1.0, 1.0]] {
+        let refused = Inertia::<f64>::new(1.0, diagonal(moments));
+        assert!(matches!(refused, Err(BodyError::SingularInertia(_))), "{moments:?}: {refused:?}");
+    }
+}
