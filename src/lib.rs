@@ -1,12 +1,67 @@
-//! ga-physics.
+//! Geometric algebra with types and products generated at compile time, and a rigid-body simulator that stands on them.
+//!
+//! * [`algebra`]: G(3,0) and the conformal algebra G(4,1) as fixed-size types with unrolled products, and
+//!   [`algebra!`] to declare more; the grade-tracked dynamic multivector that they replace.
+//! * [`versor`]: rotors, translators, motors, dilators. [`geometry`]: points, flats, rounds, meets, meshes.
+//! * `ode`, `rigid`, `collision`, `simulation` (feature `physics`): bodies in motion.
+//! * `io`, `scene`, `study`, `cli` (feature `cli`): what the command needs.
+//!
+//! A layer uses only the ones named before it.
+//!
+//! ```
+//! use ga_physics::algebra::{cga::{Motor, Point}, g3::{Rotor, Vector}};
+//! use ga_physics::geometry::{line_meets_plane, plane_through, sphere_through};
+//!
+//! // A quarter turn about z, then a metre up.
+//! let turn = Rotor::from_axis_angle(Vector::new(0.0, 0.0, 1.0), std::f64::consts::FRAC_PI_2)?;
+//! let motor = Motor::from_parts(Vector::new(0.0, 0.0, 1.0), turn);
+//! let moved: Point = motor.apply(Point::new(1.0, 0.0, 0.0));
+//! assert!(moved.distance_sq_to(Point::new(0.0, 1.0, 1.0)) < 1e-30);
+//!
+//! // Products are operators; the compiler knows the type of every result.
+//! let corners: [[f64; 3]; 4] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]];
+//! let [a, b, c, d] = corners.map(Point::from);
+//! let circle = a ^ b ^ c;
+//! let incidence = circle ^ d;
+//! assert!(incidence.norm_sq() != 0.0, "d is not on the circle");
+//!
+//! // Checked constructions name what is degenerate.
+//! let sphere = sphere_through(a, b, c, d)?;
+//! assert!((sphere.radius()? - 1.0).abs() < 1e-15 && (Point::origin() | sphere) > 0.0);
+//! let plane = plane_through(a, b, c)?;
+//! let hit = line_meets_plane(Point::origin(), Point::new(1.0, 1.0, 1.0), plane)?;
+//! assert!((hit.x - 1.0 / 3.0).abs() < 1e-15);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Conventions
+//!
+//! * SI units, right-handed axes. Angular quantities say their frame: `_world`, `_body`.
+//! * Operators: `*` geometric, `^` outer, `|` left contraction, `&` meet, `undual(dual a ^ dual b)`. Rust's precedence is
+//!   `*`, `+ -`, `&`, `^`, `|`: use brackets.
+//! * Null basis: `no` the origin, `ninf` infinity, `no . ninf = -1`. Point `X = no + x + x²/2 ninf`, so
+//!   `X . Y = -|x - y|²/2`, `X . ninf = -1`.
+//! * `dual(M) = I M` with `I = -e123 (no ^ ninf)`, `I² = -1`; `undual(M) = -I M`. In G(3,0) `I = e123`.
+//! * [`Sphere`](algebra::cga::Sphere) and [`Plane`](algebra::cga::Plane) are dual (vectors); line, circle, point pair and
+//!   flat point are direct. Sphere: `X . s = (rho² - d²)/2`, positive *inside*. Plane `nu + delta ninf`:
+//!   `X . pi = nu . x - delta`, positive on the side of the normal, *outside* a body. The two differ in sense.
+//! * Versors: `R = exp(-B phi/2)`, `x' = R x ~R`; translator `T = 1 - t ninf/2`; dilator `exp(alpha/2 e ebar)` scales by
+//!   `exp(-alpha)`; motor `M = T R`. The quaternion `w + x i + y j + z k` is the rotor `w - x e23 - y e31 - z e12`.
+//! * Bivectors are stored as (e23, e31, e12), which reads like the axial vector: `Omega = omega I3`.
+//! * Motion: `v = x . Omega`, `L = x ^ (x . Omega)`, torque `r ^ F`, `Rdot = -1/2 Omega_world R = -1/2 R Omega_body`.
+//! * Contacts: the normal points from a to b, the separation is negative on overlap, the impulse `+j n` acts on b.
+//!
+//! # Features
+//!
+//! `default-features = false` is `no_std` with `alloc`: algebra, versor, geometry. `physics` adds everything down to the
+//! simulation and the standard library; `cli` (the default) adds files, scenes, the study and the command.
 #![cfg_attr(not(feature = "std"), no_std)]
+
 extern crate alloc;
+// Generated code names the library by this path, also within it.
 extern crate self as ga_physics;
 
 pub mod algebra;
-
-pub use ga_macros::{__algebra_with_base, algebra};
-
 #[cfg(feature = "cli")]
 pub mod cli;
 #[cfg(feature = "physics")]
@@ -23,3 +78,5 @@ pub mod scene;
 #[cfg(feature = "physics")]
 pub mod simulation;
 pub mod versor;
+
+pub use ga_macros::{__algebra_with_base, algebra};

@@ -74,7 +74,7 @@ pub enum TypeBody {
     /// `[s = 1, e23, e31, e12]`: stored coefficients, or constant ones.
     Stored(Vec<(Ident, Option<syn::Lit>)>),
     /// `x*e1 + no + ...`
-    Sum(Expr),
+    Sum(Box<Expr>),
 }
 
 /// In which frame a kernel is evaluated.
@@ -225,7 +225,7 @@ impl TypeSource {
             }
             TypeBody::Stored(stored)
         } else {
-            TypeBody::Sum(input.parse()?)
+            TypeBody::Sum(Box::new(input.parse()?))
         };
         input.parse::<Token![;]>()?;
         Ok(Self { docs, name, facts, body })

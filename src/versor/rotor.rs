@@ -5,22 +5,14 @@
 
 use crate::algebra::Real;
 use crate::algebra::g3::{Bivector, Even, Rotor, Vector};
-use core::fmt;
 
 /// An even multivector that no scale turns into a rotor: its norm is zero, infinite or not a number.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("no rotor has norm squared {norm_sq:e}: give four numbers that are finite and not all zero")]
 pub struct NotARotor {
     /// The sum of the squares of its numbers, as found.
     pub norm_sq: f64,
 }
-
-impl fmt::Display for NotARotor {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "no rotor has norm squared {:e}: give four numbers that are finite and not all zero", self.norm_sq)
-    }
-}
-
-impl core::error::Error for NotARotor {}
 
 /// Below this angle `sin b / b` is its series `1 - b²/6`: the next term, b⁴/120, is then under half an epsilon of f64
 /// (b < 7e-4 gives 2e-15 · 1e-1); above it the quotient loses nothing, since libm's sine is good to an ulp.

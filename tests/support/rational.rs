@@ -56,6 +56,7 @@ impl Mul for Rational {
 
 impl Div for Rational {
     type Output = Self;
+    #[allow(clippy::suspicious_arithmetic_impl, reason = "division is multiplication by the reciprocal")]
     fn div(self, b: Self) -> Self {
         self * Self::new(b.denominator, b.numerator)
     }

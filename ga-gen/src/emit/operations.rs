@@ -87,6 +87,7 @@ pub(super) fn emit(spec: &Spec, item: &Item) -> TokenStream {
                     type Output = #output;
                     #[doc = #doc]
                     #[inline]
+                    #[allow(clippy::suspicious_arithmetic_impl, reason = "products of multivectors are sums of products")]
                     fn #method(self, #argument: #b) -> #output { #receiver #body }
                 }
             }

@@ -11,6 +11,9 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use std::collections::BTreeMap;
 
+/// The most arguments that a positional constructor has.
+const LONGEST_CONSTRUCTOR: usize = 7;
+
 /// The type with its scalar: `Rotor<T>`, `super::g3::Vector<T>`, `Infinity`.
 pub(super) fn path(spec: &Spec, index: usize) -> TokenStream {
     let ty = &spec.types[index];
@@ -123,13 +126,19 @@ fn constructors(ty: &Type) -> TokenStream {
     let fields: Vec<_> = ty.fields.iter().map(|field| identifier(field)).collect();
     let count = Literal::usize_unsuffixed(fields.len());
     let indices = (0..fields.len()).map(Literal::usize_unsuffixed);
-    quote! {
-        impl<T> #name<T> {
+    // Beyond this many numbers a position says nothing to a reader: arrays and struct literals remain.
+    let new = (fields.len() <= LONGEST_CONSTRUCTOR).then(|| {
+        quote! {
             /// From the stored numbers, in declared order.
             #[inline]
             pub const fn new(#(#fields: T),*) -> Self {
                 Self { #(#fields),* }
             }
+        }
+    });
+    quote! {
+        impl<T> #name<T> {
+            #new
             /// From a function of the index of each stored number.
             #[inline]
             pub fn from_fn(mut f: impl FnMut(usize) -> T) -> Self {
