@@ -77,6 +77,8 @@ pub mod rigid;
 pub mod scene;
 #[cfg(feature = "physics")]
 pub mod simulation;
+#[cfg(feature = "cli")]
+pub mod study;
 pub mod versor;
 
 pub use ga_macros::{__algebra_with_base, algebra};
