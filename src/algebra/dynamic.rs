@@ -2,8 +2,9 @@
 //!
 //! As in the report's appendix A: a shared pointer to coefficients on the heap, with the blades that are present
 //! tracked at run time, so that no product is formed of absent ones. It is built to be a fair rival: one allocation a
-//! result, only present coefficients stored, signs from a table made at compile time. It works in an orthonormal basis
-//! and knows nothing of null pairs, so it is an independent check on the generated code, which works in the null basis.
+//! result and no step of an operation on the heap, only present coefficients stored, the surviving products of blades
+//! and their signs as bit sets made at compile time. It works in an orthonormal basis and knows nothing of null pairs,
+//! so it is an independent check on the generated code, which works in the null basis.
 
 use super::Scalar;
 use alloc::rc::Rc;
@@ -45,26 +46,64 @@ impl<M: Metric, T: Scalar> Clone for Dynamic<M, T> {
     }
 }
 
-/// The sign of every product of basis blades, made at compile time.
-struct Signs<M>(PhantomData<M>);
+/// A set of blades, as bits, for each blade.
+type Sets = [u64; MAX_BLADES];
 
-impl<M: Metric> Signs<M> {
-    const TABLE: [[i8; MAX_BLADES]; MAX_BLADES] = {
-        assert!(M::SQUARES.len() <= MAX_DIMENSION, "at most six basis vectors");
-        let count = 1 << M::SQUARES.len();
-        let mut table = [[0; MAX_BLADES]; MAX_BLADES];
+/// The products of basis blades. For each blade a, the blades b with ...
+struct Products {
+    /// ... `a b` a negative multiple of the blade `a xor b`.
+    negative: Sets,
+    /// ... `a b` other than 0.
+    geometric: Sets,
+    /// ... `a ^ b` other than 0.
+    outer: Sets,
+    /// ... `a | b` other than 0.
+    contraction: Sets,
+}
+
+impl Products {
+    const fn new(squares: &[i8]) -> Self {
+        assert!(squares.len() <= MAX_DIMENSION, "at most six basis vectors");
+        let none = [0; MAX_BLADES];
+        let mut products = Self { negative: none, geometric: none, outer: none, contraction: none };
+        let count = 1 << squares.len();
         let mut a = 0;
         while a < count {
             let mut b = 0;
             while b < count {
-                table[a][b] = sign(M::SQUARES, a, b);
+                let sign = sign(squares, a, b);
+                products.negative[a] |= ((sign < 0) as u64) << b;
+                products.geometric[a] |= ((sign != 0) as u64) << b;
+                products.outer[a] |= ((sign != 0 && a & b == 0) as u64) << b;
+                products.contraction[a] |= ((sign != 0 && a & b == a) as u64) << b;
                 b += 1;
             }
             a += 1;
         }
-        table
-    };
+        products
+    }
 }
+
+/// The table of an algebra, made at compile time.
+struct Table<M>(PhantomData<M>);
+
+impl<M: Metric> Table<M> {
+    const PRODUCTS: &'static Products = &Products::new(M::SQUARES);
+}
+
+/// The blades of each grade among all [`MAX_BLADES`].
+const GRADES: [u64; MAX_DIMENSION + 1] = {
+    let mut grades = [0; MAX_DIMENSION + 1];
+    let mut blade = 0_usize;
+    while blade < MAX_BLADES {
+        grades[blade.count_ones() as usize] |= 1 << blade;
+        blade += 1;
+    }
+    grades
+};
+
+/// The blades that the reverse negates: k (k - 1) / 2 is odd for the grades 2, 3 and 6.
+const REVERSED: u64 = GRADES[2] | GRADES[3] | GRADES[6];
 
 /// Swaps that sort the factors of a and b, times the squares of the common ones.
 const fn sign(squares: &[i8], a: usize, b: usize) -> i8 {
@@ -84,31 +123,22 @@ const fn sign(squares: &[i8], a: usize, b: usize) -> i8 {
     result
 }
 
-/// Coefficients that are being summed, with the blades that occurred.
-struct Sums<T> {
-    present: u64,
-    values: [T; MAX_BLADES],
-}
-
-impl<T: Scalar> Sums<T> {
-    fn new() -> Self {
-        Self { present: 0, values: [T::ratio(0, 1); MAX_BLADES] }
-    }
-
-    fn add(&mut self, blade: usize, value: T) {
-        self.present |= 1 << blade;
-        self.values[blade] = self.values[blade] + value;
-    }
-
-    /// Packs the present coefficients to the front, in place, and makes the one allocation.
-    fn finish<M: Metric>(mut self) -> Dynamic<M, T> {
-        let mut count = 0;
-        for blade in Bits(self.present) {
-            self.values[count] = self.values[blade];
-            count += 1;
+/// `{a xor b: b in set}`: for each bit of a, neighbouring groups of bits change places.
+fn translated<const N: usize>(mut set: u64, a: usize) -> u64 {
+    const LOWER: [u64; MAX_DIMENSION] = [
+        0x5555_5555_5555_5555,
+        0x3333_3333_3333_3333,
+        0x0f0f_0f0f_0f0f_0f0f,
+        0x00ff_00ff_00ff_00ff,
+        0x0000_ffff_0000_ffff,
+        0x0000_0000_ffff_ffff,
+    ];
+    for (index, lower) in LOWER.iter().enumerate().take(N.trailing_zeros() as usize) {
+        if a >> index & 1 == 1 {
+            set = (set & lower) << (1 << index) | set >> (1 << index) & lower;
         }
-        Dynamic { present: self.present, coefficients: Rc::from(&self.values[..count]), metric: PhantomData }
     }
+    set
 }
 
 /// The set bits of a word, from the lowest.
@@ -118,21 +148,100 @@ impl Iterator for Bits {
     type Item = usize;
 
     fn next(&mut self) -> Option<usize> {
+        if self.0 == 0 {
+            return None;
+        }
         let index = self.0.trailing_zeros() as usize;
-        self.0 &= self.0.wrapping_sub(1);
-        (index < 64).then_some(index)
+        self.0 &= self.0 - 1;
+        Some(index)
     }
+}
+
+/// Coefficients on the stack, N blades: a result before its one allocation, or a step within an operation.
+struct Sums<T, const N: usize> {
+    present: u64,
+    values: [T; N],
+}
+
+impl<T: Scalar, const N: usize> Sums<T, N> {
+    fn new() -> Self {
+        Self { present: 0, values: [T::ratio(0, 1); N] }
+    }
+
+    /// The coefficients of a multivector, each in the place of its blade.
+    fn unpacked<M: Metric>(multivector: &Dynamic<M, T>) -> Self {
+        let mut sums = Self::new();
+        for (blade, value) in multivector.terms() {
+            sums.set(blade, value);
+        }
+        sums
+    }
+
+    fn set(&mut self, blade: usize, value: T) {
+        self.present |= 1 << blade;
+        // N is a power of two and larger than any blade: the mask only tells the compiler so.
+        self.values[blade & (N - 1)] = value;
+    }
+
+    fn add(&mut self, blade: usize, value: T) {
+        self.set(blade, self.values[blade & (N - 1)] + value);
+    }
+
+    /// Packs the present coefficients to the front, in place, and makes the one allocation.
+    fn finish<M: Metric>(mut self) -> Dynamic<M, T> {
+        let mut count = 0;
+        for blade in Bits(self.present) {
+            self.values[count & (N - 1)] = self.values[blade & (N - 1)];
+            count += 1;
+        }
+        Dynamic { present: self.present, coefficients: Rc::from(&self.values[..count]), metric: PhantomData }
+    }
+
+    /// The sum of the products of terms. For each blade a, `row` says which blades b to multiply it with, and for which
+    /// of them the sign is negative.
+    #[inline]
+    fn multiply<M: Metric>(
+        a: impl Iterator<Item = (usize, T)>,
+        b: &Dynamic<M, T>,
+        row: impl Fn(usize) -> (u64, u64),
+    ) -> Self {
+        let mut sums = Self::new();
+        let dense = Self::unpacked(b);
+        for (blade_a, x) in a {
+            let (kept, negative) = row(blade_a);
+            for blade_b in Bits(kept & b.present) {
+                let product = x * dense.values[blade_b & (N - 1)];
+                sums.add(blade_a ^ blade_b, if negative >> blade_b & 1 == 1 { -product } else { product });
+            }
+        }
+        sums
+    }
+}
+
+/// Calls a function with the number of blades of the basis as a constant, so that no more of them are touched.
+macro_rules! sized {
+    ($function:ident($($argument:expr),*)) => {
+        match M::SQUARES.len() {
+            0..=3 => Self::$function::<8>($($argument),*),
+            4 => Self::$function::<16>($($argument),*),
+            5 => Self::$function::<32>($($argument),*),
+            _ => Self::$function::<MAX_BLADES>($($argument),*),
+        }
+    };
 }
 
 impl<M: Metric, T: Scalar> Dynamic<M, T> {
     /// The multivector with the given terms; equal blades add up. Bits of a blade beyond the basis are ignored.
     #[must_use]
     pub fn from_terms(terms: &[(u32, T)]) -> Self {
-        let mut sums = Sums::new();
         let mask = (1 << M::SQUARES.len()) - 1;
-        for (blade, value) in terms {
-            sums.add((*blade & mask) as usize, *value);
-        }
+        let terms = terms.iter().map(|(blade, value)| ((*blade & mask) as usize, *value));
+        sized!(summed(terms))
+    }
+
+    fn summed<const N: usize>(terms: impl Iterator<Item = (usize, T)>) -> Self {
+        let mut sums = Sums::<T, N>::new();
+        terms.for_each(|(blade, value)| sums.add(blade, value));
         sums.finish()
     }
 
@@ -144,64 +253,54 @@ impl<M: Metric, T: Scalar> Dynamic<M, T> {
     /// The coefficient of a blade; 0 where it is absent.
     #[must_use]
     pub fn coefficient(&self, blade: u32) -> T {
-        self.terms().find(|(known, _)| *known == blade as usize).map_or(T::ratio(0, 1), |(_, value)| value)
+        let below = 1_u64.checked_shl(blade).map_or(u64::MAX, |bit| bit - 1);
+        let present = self.present.checked_shr(blade).is_some_and(|rest| rest & 1 == 1);
+        let rank = (self.present & below).count_ones() as usize;
+        self.coefficients.get(rank).copied().filter(|_| present).unwrap_or(T::ratio(0, 1))
     }
 
-    /// The bytes of the heap block behind the shared pointer: two reference counts, then the coefficients.
+    /// The bytes of the heap block behind the shared pointer: two reference counts, then the coefficients,
+    /// padded to a whole word.
     #[must_use]
     pub fn heap_bytes(&self) -> usize {
-        2 * size_of::<usize>() + size_of_val(&*self.coefficients)
+        (2 * size_of::<usize>() + size_of_val(&*self.coefficients)).next_multiple_of(align_of::<usize>())
     }
 
-    fn product(&self, other: &Self, keep: impl Fn(usize, usize) -> bool) -> Self {
-        let mut sums = Sums::new();
-        for (a, x) in self.terms() {
-            for (b, y) in other.terms() {
-                match Signs::<M>::TABLE[a][b] {
-                    1 if keep(a, b) => sums.add(a ^ b, x * y),
-                    -1 if keep(a, b) => sums.add(a ^ b, -(x * y)),
-                    _ => {}
-                }
-            }
-        }
-        sums.finish()
+    fn product(&self, other: &Self, kept: &Sets) -> Self {
+        sized!(product_of(self, other, kept))
+    }
+
+    fn product_of<const N: usize>(a: &Self, b: &Self, kept: &Sets) -> Self {
+        let negative = &Table::<M>::PRODUCTS.negative;
+        Sums::<T, N>::multiply(a.terms(), b, |a| (kept[a], negative[a])).finish()
     }
 
     fn map(&self, f: impl Fn(usize, T) -> (usize, T)) -> Self {
-        let mut sums = Sums::new();
-        for (blade, value) in self.terms() {
-            let (image, value) = f(blade, value);
-            sums.add(image, value);
-        }
-        sums.finish()
+        sized!(summed(self.terms().map(|(blade, value)| f(blade, value))))
     }
 
     /// The reverse.
     #[must_use]
     pub fn rev(&self) -> Self {
-        self.map(|blade, value| (blade, if blade.count_ones() & 2 == 2 { -value } else { value }))
+        self.map(|blade, value| (blade, if REVERSED >> blade & 1 == 1 { -value } else { value }))
     }
 
     /// The part of one grade.
     #[must_use]
     pub fn grade(&self, grade: u32) -> Self {
-        let mut sums = Sums::new();
-        for (blade, value) in self.terms().filter(|(blade, _)| blade.count_ones() == grade) {
-            sums.add(blade, value);
-        }
-        sums.finish()
+        let terms = self.terms().filter(|(blade, _)| blade.count_ones() == grade);
+        sized!(summed(terms))
     }
 
     /// `I a`; `None` where no pseudoscalar was declared or `I² = 0`.
     #[must_use]
     pub fn dual(&self) -> Option<Self> {
         let full = (1 << M::SQUARES.len()) - 1;
-        let square = Signs::<M>::TABLE[full][full];
-        (M::PSEUDOSCALAR_SIGN != 0 && square != 0).then(|| {
-            self.map(|blade, value| {
-                let negative = Signs::<M>::TABLE[full][blade] * M::PSEUDOSCALAR_SIGN < 0;
-                (full ^ blade, if negative { -value } else { value })
-            })
+        let products = Table::<M>::PRODUCTS;
+        let has_square = products.geometric[full] >> full & 1 == 1;
+        (M::PSEUDOSCALAR_SIGN != 0 && has_square).then(|| {
+            let negative = if M::PSEUDOSCALAR_SIGN < 0 { !products.negative[full] } else { products.negative[full] };
+            self.map(|blade, value| (full ^ blade, if negative >> blade & 1 == 1 { -value } else { value }))
         })
     }
 
@@ -210,7 +309,7 @@ impl<M: Metric, T: Scalar> Dynamic<M, T> {
     pub fn undual(&self) -> Option<Self> {
         let full = (1 << M::SQUARES.len()) - 1;
         let dual = self.dual()?;
-        Some(if Signs::<M>::TABLE[full][full] < 0 { -&dual } else { dual })
+        Some(if Table::<M>::PRODUCTS.negative[full] >> full & 1 == 1 { -&dual } else { dual })
     }
 
     /// `undual(dual a ^ dual b)`.
@@ -222,13 +321,22 @@ impl<M: Metric, T: Scalar> Dynamic<M, T> {
     /// `self x ~self`, restricted to the grades of x.
     #[must_use]
     pub fn apply(&self, x: &Self) -> Self {
-        let image = &(self * x) * &self.rev();
-        let grades = x.terms().fold(0_u32, |grades, (blade, _)| grades | 1 << blade.count_ones());
-        let mut sums = Sums::new();
-        for (blade, value) in image.terms().filter(|(blade, _)| grades >> blade.count_ones() & 1 == 1) {
-            sums.add(blade, value);
-        }
-        sums.finish()
+        sized!(image_of(self, x))
+    }
+
+    /// The half-way product stays on the stack, the reverse is read off the versor itself, and of the second product
+    /// only the wanted grades are formed.
+    fn image_of<const N: usize>(versor: &Self, x: &Self) -> Self {
+        let Products { geometric, negative, .. } = Table::<M>::PRODUCTS;
+        let half = Sums::<T, N>::multiply(versor.terms(), x, |a| (geometric[a], negative[a]));
+        let half = Bits(half.present).map(|blade| (blade, half.values[blade & (N - 1)]));
+        let wanted = GRADES.iter().filter(|grade| *grade & x.present != 0).fold(0, |all, grade| all | grade);
+        let row = |a: usize| (geometric[a] & translated::<N>(wanted, a), negative[a] ^ REVERSED);
+        Sums::<T, N>::multiply(half, versor, row).finish()
+    }
+
+    fn from_both(a: &Self, b: &Self) -> Self {
+        sized!(summed(a.terms().chain(b.terms())))
     }
 
     /// Every coefficient times a scalar.
@@ -263,17 +371,13 @@ macro_rules! operators {
 
 operators! {
     /// The geometric product.
-    Mul mul |a, b| a.product(b, |_, _| true);
+    Mul mul |a, b| a.product(b, &Table::<M>::PRODUCTS.geometric);
     /// The outer product.
-    BitXor bitxor |a, b| a.product(b, |x, y| x & y == 0);
+    BitXor bitxor |a, b| a.product(b, &Table::<M>::PRODUCTS.outer);
     /// The left contraction.
-    BitOr bitor |a, b| a.product(b, |x, y| x & y == x);
+    BitOr bitor |a, b| a.product(b, &Table::<M>::PRODUCTS.contraction);
     /// The sum.
-    Add add |a, b| {
-        let mut sums = Sums::new();
-        a.terms().chain(b.terms()).for_each(|(blade, value)| sums.add(blade, value));
-        sums.finish()
-    };
+    Add add |a, b| Dynamic::from_both(a, b);
     /// The difference.
     Sub sub |a, b| a + &-b;
 }
