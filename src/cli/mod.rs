@@ -172,7 +172,7 @@ fn check(path: &Path, sets: &[String]) -> Result<(), Failure> {
 fn study(names: &[Study], quick: bool, out: &Path) -> Result<(), Failure> {
     debug_assert!(names.iter().all(|name| *name == Study::Kernels));
     let mut progress = |line: &str| eprintln!("{line}");
-    progress("to come");
-    let _ = (quick, out);
-    Ok(())
+    let report =
+        crate::study::kernels::run(quick, out, &mut progress).map_err(|error| Failure::run(error.to_string()))?;
+    print(&report.text())
 }

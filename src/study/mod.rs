@@ -11,6 +11,7 @@ pub mod timing;
 
 pub use machine::Provenance;
 
+use crate::io::files::{WriteError, write_whole};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -33,13 +34,8 @@ pub enum StudyError {
         limit: f64,
     },
     /// A file or its directory cannot be written.
-    #[error("cannot write {path}: {source}; is it a directory that you may write to? `--out DIR` names another", path = path.display())]
-    Write {
-        /// The file or directory.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    Write(#[from] WriteError),
     /// The chart cannot be drawn.
     #[error("cannot draw the chart: {0}")]
     Chart(#[from] plotters::drawing::DrawingAreaErrorKind<io::Error>),
@@ -48,12 +44,10 @@ pub enum StudyError {
     Json(#[from] serde_json::Error),
 }
 
-/// Writes a file under a temporary name and renames it, so that a killed study leaves no half file.
-fn write_whole(directory: &Path, name: &str, content: &str) -> Result<PathBuf, StudyError> {
+/// Writes a file of the study, whole or not at all.
+fn write_file(directory: &Path, name: &str, content: &str) -> Result<PathBuf, StudyError> {
     let path = directory.join(name);
-    let temporary = directory.join(format!(".{name}.part"));
-    std::fs::create_dir_all(directory).map_err(|source| StudyError::Write { path: directory.to_path_buf(), source })?;
-    let written = std::fs::write(&temporary, content).and_then(|()| std::fs::rename(&temporary, &path));
-    written.map_err(|source| StudyError::Write { path: path.clone(), source })?;
+    std::fs::create_dir_all(directory).map_err(|source| WriteError { path: directory.to_path_buf(), source })?;
+    write_whole(&path, |file| file.write_all(content.as_bytes()))?;
     Ok(path)
 }

@@ -3,7 +3,7 @@
 use super::{Kernel, Role};
 use crate::study::chart::{self, Bar, Group};
 use crate::study::timing::{Ratio, Samples, Timing};
-use crate::study::{Provenance, StudyError, write_whole};
+use crate::study::{Provenance, StudyError, write_file};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -212,9 +212,9 @@ impl StudyReport {
     pub fn write(&self, out: &Path) -> Result<Vec<PathBuf>, StudyError> {
         let json = serde_json::to_string_pretty(self)? + "\n";
         Ok(vec![
-            write_whole(out, "kernels.json", &json)?,
-            write_whole(out, "kernels.md", &self.markdown())?,
-            write_whole(out, "kernels.svg", &self.chart()?)?,
+            write_file(out, "kernels.json", &json)?,
+            write_file(out, "kernels.md", &self.markdown())?,
+            write_file(out, "kernels.svg", &self.chart()?)?,
         ])
     }
 
