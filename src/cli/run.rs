@@ -104,9 +104,9 @@ fn simulate<T: Real>(
         let mut events: Vec<Event> = Vec::new();
         let outcome = world.advance_to(end_s, &mut events);
         record.events.append(&mut events);
-        // A frame is due at each multiple of the interval; rounding must not push one to the next step.
+        // A frame is due at each multiple of the interval; the rounding of two products must not push it a step on.
         #[expect(clippy::cast_precision_loss, reason = "as above")]
-        let due = end_s >= frames as f64 * interval_s - 0.5 * f64::EPSILON * end_s.max(dt_s) * 8.0;
+        let due = end_s * (1.0 + 4.0 * f64::EPSILON) >= frames as f64 * interval_s;
         frames += u64::from(due);
         record.observe(world, due || step == steps || outcome.is_err());
         if let Err(error) = outcome {

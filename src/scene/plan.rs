@@ -116,7 +116,8 @@ pub fn plan(scene: &Scene) -> Plan {
     plan.choose(drag > 0, "drag", &format!("linear, {drag}"), "no [[force]] names one");
     let planes = scene.body.iter().any(|body| matches!(body.shape, Some(Shape::Plane(_))));
     let how = format!(
-        "{collision_pairs} pairs; {}balls, vertices in bodies, edges through facets",
+        "{collision_pairs} {}; {}balls, vertices in bodies, edges through facets",
+        if collision_pairs == 1 { "pair" } else { "pairs" },
         if planes { "half-spaces, " } else { "" }
     );
     plan.choose(collision_pairs > 0, "collisions", &how, "no two bodies with shapes of which one moves");
