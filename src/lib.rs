@@ -1,6 +1,6 @@
 //! Geometric algebra with types and products generated at compile time, and a rigid-body simulator that stands on them.
 //!
-//! * [`algebra`]: G(3,0) and the conformal algebra G(4,1) as fixed-size types with unrolled products, and
+//! * [`mod@algebra`]: G(3,0) and the conformal algebra G(4,1) as fixed-size types with unrolled products, and
 //!   [`algebra!`] to declare more; the grade-tracked dynamic multivector that they replace.
 //! * [`versor`]: rotors, translators, motors, dilators. [`geometry`]: points, flats, rounds, meets, meshes.
 //! * `ode`, `rigid`, `collision`, `simulation` (feature `physics`): bodies in motion.

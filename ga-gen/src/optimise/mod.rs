@@ -1,8 +1,8 @@
 //! From the graph in normal form to the program that is emitted.
 //!
-//! The passes, in order: dead code is left behind; complete squares are put together ([`squares`]); a step that is used
-//! once is inlined where that costs nothing ([`flatten`]); equal constant factors within a sum are pulled into one
-//! ([`scale`]). Each preserves the value exactly as a rational function; none touches a difference of squares.
+//! The passes, in order: dead code is left behind; complete squares are put together (`squares`); a step that is used
+//! once is inlined where that costs nothing (`flatten`); equal constant factors within a sum are pulled into one
+//! (`scale`). Each preserves the value exactly as a rational function; none touches a difference of squares.
 
 mod flatten;
 mod scale;
