@@ -307,9 +307,10 @@ fn a_body_that_stays_in_contact_is_named() {
     let failed = (1..=1000).find_map(|step| world.advance_to(f64::from(step) * 0.01, &mut events).err());
     assert!(matches!(failed, Some(SimulationError::StaysInContact { a: 0, b: 1, .. })), "{failed:?}");
     assert_eq!(events.last().unwrap().kind, EventKind::ContactPersists);
-    // Falls 0.1 m in 0.143 s; the bounces sum to (1 + 2 * 0.3 / 0.7) times that.
+    // A flat landing: all corners at once, no tumbling. Falls 0.1 m; the bounces sum to (1 + 2 * 0.3 / 0.7) of its time.
     let expected = (0.2_f64 / 9.81).sqrt() * (1.0 + 2.0 * 0.3 / 0.7);
-    assert!((world.time_s() - expected).abs() < 0.01, "{} instead of {expected}", world.time_s());
+    // The last bounces, of 1e-5 s and less, are lower than the slop of simultaneous contacts and are not resolved.
+    assert!((world.time_s() - expected).abs() < 2e-5, "{} instead of {expected}", world.time_s());
 }
 
 #[test]

@@ -31,6 +31,32 @@ pub enum Collider<T> {
     HalfSpace(Vector<T>),
 }
 
+/// Which contacts are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reach {
+    /// Those of bodies that overlap.
+    Overlapping,
+    /// Those, and vertices within [`SIMULTANEOUS`] of the surface besides: they are struck at the same instant.
+    Simultaneous,
+}
+
+/// A vertex this close to the other body when a first contact is made, as a share of its own body's size, touches at the
+/// same instant. The corners of a box that lands flat come down within the rounding of its attitude, which grows by an
+/// epsilon or so a step: far below this share for any run, while nothing that is modelled is as fine as a nanometre on a
+/// metre. Without it a flat landing is a clatter of a hundred impacts, one of each corner after the other.
+const SIMULTANEOUS: f64 = 1e-9;
+
+/// In f32 the coordinates themselves are coarser than that: a vertex is good to a few epsilons of the size.
+const SIMULTANEOUS_EPSILONS: f64 = 16.0;
+
+fn margin<T: Real>(reach: Reach, body: &Polyhedron<T>) -> T {
+    let share = T::from_f64(SIMULTANEOUS).max(T::from_f64(SIMULTANEOUS_EPSILONS) * T::EPSILON);
+    match reach {
+        Reach::Overlapping => T::zero(),
+        Reach::Simultaneous => share * body.bound.rho_sq.sqrt(),
+    }
+}
+
 /// Detects contacts; holds scratch storage.
 #[derive(Clone, Debug, Default)]
 pub struct NarrowPhase<T> {
@@ -48,15 +74,20 @@ impl<T: Real> NarrowPhase<T> {
         colliders: &[Collider<T>],
         a: usize,
         b: usize,
+        reach: Reach,
         found: &mut Vec<Contact<T>>,
     ) -> bool {
         let before = found.len();
         match (&colliders[a], &colliders[b]) {
             (Collider::Convex(first), Collider::Convex(second)) => {
-                self.convex_pair(bodies, (a, first), (b, second), found)
+                self.convex_pair(bodies, (a, first), (b, second), reach, found)
             }
-            (Collider::Convex(body), Collider::HalfSpace(normal)) => half_space(bodies, (a, body), (b, *normal), found),
-            (Collider::HalfSpace(normal), Collider::Convex(body)) => half_space(bodies, (b, body), (a, *normal), found),
+            (Collider::Convex(body), Collider::HalfSpace(normal)) => {
+                half_space(bodies, (a, body), (b, *normal), reach, found)
+            }
+            (Collider::HalfSpace(normal), Collider::Convex(body)) => {
+                half_space(bodies, (b, body), (a, *normal), reach, found)
+            }
             _ => {}
         }
         found.len() > before
@@ -67,6 +98,7 @@ impl<T: Real> NarrowPhase<T> {
         bodies: &Bodies<T>,
         (a, first): (usize, &Polyhedron<T>),
         (b, second): (usize, &Polyhedron<T>),
+        reach: Reach,
         found: &mut Vec<Contact<T>>,
     ) {
         let pose = bodies.relative_pose(a, b);
@@ -76,11 +108,11 @@ impl<T: Real> NarrowPhase<T> {
         let before = found.len();
         let in_first = Frame { bodies, host: (a, first), guest: (b, second), pose };
         self.move_vertices(&in_first);
-        in_first.vertices_within(&self.moved, found);
+        in_first.vertices_within(&self.moved, reach, found);
         let in_second = Frame { bodies, host: (b, second), guest: (a, first), pose: pose.rev() };
         self.move_vertices(&in_second);
-        in_second.vertices_within(&self.moved, found);
-        if found.len() > before {
+        in_second.vertices_within(&self.moved, reach, found);
+        if found[before..].iter().any(|contact| contact.separation <= T::zero()) {
             return;
         }
         self.met.clear();
@@ -120,8 +152,9 @@ impl<T: Real> Frame<'_, T> {
         }
     }
 
-    fn vertices_within(&self, moved: &[Point<T>], found: &mut Vec<Contact<T>>) {
-        for vertex in moved.iter().filter(|vertex| !self.host.1.excludes(**vertex)) {
+    fn vertices_within(&self, moved: &[Point<T>], reach: Reach, found: &mut Vec<Contact<T>>) {
+        let margin = margin(reach, self.guest.1);
+        for vertex in moved.iter().filter(|vertex| !self.host.1.excludes(**vertex, margin)) {
             if let Some((height, facet)) = self.host.1.height(*vertex) {
                 found.push(self.contact(*vertex, facet.plane.normal(), height));
             }
@@ -188,15 +221,17 @@ fn half_space<T: Real>(
     bodies: &Bodies<T>,
     (body_idx, body): (usize, &Polyhedron<T>),
     (plane_idx, normal): (usize, Vector<T>),
+    reach: Reach,
     found: &mut Vec<Contact<T>>,
 ) {
+    let margin = margin(reach, body);
     let normal = bodies.rotor[plane_idx].apply(normal);
     let from_plane = bodies.position[plane_idx].displacement_to(bodies.position[body_idx]);
     let height = T::from_f64(normal.map(Real::to_f64) | from_plane);
     let normal_body = bodies.rotor[body_idx].rev().apply(normal);
     for vertex in &body.vertices {
         let separation = height + (normal_body | vertex.position());
-        if separation < T::zero() {
+        if separation < margin {
             let arm = bodies.rotor[body_idx].apply(vertex.position());
             let from_plane = from_plane.map(T::from_f64) + arm;
             found.push(if body_idx < plane_idx {

@@ -63,10 +63,10 @@ impl<T: Real> Polyhedron<T> {
         heights.reduce(|highest, next| if next.0 > highest.0 { next } else { highest })
     }
 
-    /// Is the point outside, beyond the plane of some facet? Stops at the first.
+    /// Is the point farther than `margin` beyond the plane of some facet? Stops at the first.
     #[must_use]
-    pub fn excludes(&self, point: Point<T>) -> bool {
-        self.facets.iter().any(|facet| facet.height(point) > T::zero())
+    pub fn excludes(&self, point: Point<T>, margin: T) -> bool {
+        self.facets.iter().any(|facet| facet.height(point) > margin)
     }
 }
 
