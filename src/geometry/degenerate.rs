@@ -30,4 +30,7 @@ pub enum Degenerate {
     /// An input that is infinite or not a number.
     #[error("a coordinate is infinite or not a number")]
     NotFinite,
+    /// A difference or a squared radius that overflows, or is so small that it loses digits.
+    #[error("a squared length is too large or too small for the number format; give lengths in a unit nearer to them")]
+    OutOfRange,
 }

@@ -4,6 +4,7 @@
 //! `P^i . P_j = delta_ij`; the barycentric coordinates of a point X of the plane are `P^i . X` (report, equations 43 to
 //! 46; the printed sign gives `-delta_ij`). They are formed once for a facet, in the frame of its own vertices.
 
+use super::scaled::{differences, is_subnormal, power_of_two};
 use super::{Degenerate, plane_through};
 use crate::algebra::Real;
 use crate::algebra::cga::{self, Plane, Point};
@@ -35,15 +36,23 @@ impl<T: Real> Facet<T> {
     /// The facet with three corners.
     ///
     /// # Errors
-    /// Collinear corners, a coordinate that is not finite.
+    /// Collinear corners, a coordinate that is not finite, edges of such different length that the square of the area is
+    /// out of range.
     pub fn new(corners: [Point<T>; 3]) -> Result<Self, Degenerate> {
         let [a, b, c] = corners;
         let plane = plane_through(a, b, c)?;
-        let gradients = [(a, b, c), (b, c, a), (c, a, b)].map(|(first, second, third)| {
-            let reciprocal = cga::reciprocal_relative(first, second, third);
+        let gradient = |first: Point<T>, second: Point<T>, third: Point<T>| {
+            let edges = differences(first, [second, third])?;
+            let unit = power_of_two(&edges);
+            let [u, v] = edges.map(|edge| Point::from(edge / unit));
+            let reciprocal = cga::reciprocal_relative(Point::origin(), u, v);
+            if is_subnormal(reciprocal.ninf) {
+                return Err(Degenerate::OutOfRange);
+            }
             // P^i . P_i = 1, and P_i is the origin of this frame: -(ninf coefficient) is the normalising factor.
-            Vector::new(reciprocal.e1, reciprocal.e2, reciprocal.e3) / -reciprocal.ninf
-        });
+            Ok(Vector::new(reciprocal.e1, reciprocal.e2, reciprocal.e3) / -reciprocal.ninf / unit)
+        };
+        let gradients = [gradient(a, b, c)?, gradient(b, c, a)?, gradient(c, a, b)?];
         Ok(Self { corners, plane, gradients })
     }
 
@@ -65,16 +74,15 @@ impl<T: Real> Facet<T> {
     #[must_use]
     pub fn crossing(&self, start: Point<T>, end: Point<T>) -> Option<Crossing<T>> {
         let (above, below) = (self.height(start), self.height(end));
-        if !(above * below < T::zero()) {
+        let zero = T::zero();
+        // Not by the sign of their product, which underflows for small heights.
+        if !(above > zero && below < zero || above < zero && below > zero) {
             return None;
         }
         let fraction = above / (above - below);
-        // The meet `pi | (start ^ end ^ ninf)` in the frame of `start`; its weight is `above - below`.
-        let local =
-            Plane::with_normal_through(self.plane.normal(), Point::from(start.displacement_to(self.corners[0])));
-        let span = Point::from(start.displacement_to(end));
-        let meet = cga::line_meets_plane_relative(Point::origin(), span, local).point().ok()?;
-        let point = start.moved(meet.position());
+        // The meet `pi | (start ^ end ^ ninf)`, in the frame of `start`, is `above u ^ ninf` of weight `above - below`, with
+        // u = end - start. Dividing first keeps the product of two small lengths from underflowing.
+        let point = start.moved(start.displacement_to(end) * fraction);
         let barycentric = self.barycentric(point);
         barycentric.iter().all(|coordinate| *coordinate >= T::zero()).then_some(Crossing {
             point,

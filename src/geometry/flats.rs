@@ -1,20 +1,24 @@
 //! Lines and planes through points.
 
 use super::Degenerate;
-use super::rounds::{COLLINEAR_EPSILONS, finite};
+use super::rounds::COLLINEAR_EPSILONS;
+use super::scaled::{differences, power_of_two};
 use crate::algebra::Real;
 use crate::algebra::cga::{self, Infinity, Line, Plane, Point};
 
-/// The line `a ^ b ^ ninf`, from `a` to `b`; its norm is their distance.
+/// The line `a ^ b ^ ninf`, from `a` to `b`; `L² = -<L ~L>` is their distance squared.
+///
+/// Formed as `a ^ u ^ ninf` with `u = b - a`, which is the same: the moment `a ^ b` of two far points would lose as many
+/// digits more as their distance is smaller than that from the origin. Its components `ei_no_ninf` are those of `-u`.
 ///
 /// # Errors
 /// Coincident points, a coordinate that is not finite.
 pub fn line_through<T: Real>(a: Point<T>, b: Point<T>) -> Result<Line<T>, Degenerate> {
-    finite(&[a, b])?;
+    let [u] = differences(a, [b])?;
     if a == b {
         return Err(Degenerate::CoincidentPoints);
     }
-    Ok(a ^ b ^ Infinity)
+    Ok(a ^ u ^ Infinity)
 }
 
 /// The plane through three points, its unit normal by the right-hand rule (counter-clockwise seen from where it
@@ -23,12 +27,12 @@ pub fn line_through<T: Real>(a: Point<T>, b: Point<T>) -> Result<Line<T>, Degene
 /// # Errors
 /// Collinear points, a coordinate that is not finite.
 pub fn plane_through<T: Real>(a: Point<T>, b: Point<T>, c: Point<T>) -> Result<Plane<T>, Degenerate> {
-    finite(&[a, b, c])?;
-    let (u, v) = (a.displacement_to(b), a.displacement_to(c));
-    let plane = cga::plane_relative(a, b, c);
+    // Only the direction of u ^ v matters: each edge is brought near 1 by itself.
+    let [u, v] = differences(a, [b, c])?.map(|edge| edge / power_of_two(&[edge]));
+    let plane = cga::plane_relative(Point::origin(), u.into(), v.into());
     let doubled_area_sq = plane.e1 * plane.e1 + plane.e2 * plane.e2 + plane.e3 * plane.e3;
     let bound = T::from_f64(COLLINEAR_EPSILONS) * T::EPSILON;
-    // Not `<=`: a product that underflowed, or is not a number, is degenerate as well.
+    // Not `<=`: an edge of length 0 is degenerate as well.
     if !(doubled_area_sq > bound * bound * u.norm_sq() * v.norm_sq()) {
         return Err(Degenerate::CollinearPoints);
     }

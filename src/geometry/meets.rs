@@ -1,7 +1,8 @@
 //! Where lines, planes and spheres meet.
 
+use super::Degenerate;
 use super::rounds::CircleParts;
-use super::{Degenerate, line_through};
+use super::scaled::{differences, power_of_two};
 use crate::algebra::Real;
 use crate::algebra::cga::{self, DualLine, Line, Plane, Point, Sphere};
 use crate::algebra::g3::Vector;
@@ -15,11 +16,20 @@ const PARALLEL_EPSILONS: f64 = 3.0;
 /// # Errors
 /// Coincident points, a line parallel to the plane within rounding, a number that is not finite.
 pub fn line_meets_plane<T: Real>(a: Point<T>, b: Point<T>, plane: Plane<T>) -> Result<Point<T>, Degenerate> {
-    line_through(a, b)?;
-    let flat = cga::line_meets_plane_relative(a, b, plane);
-    let direction = a.displacement_to(b).norm_sq();
+    let edges = differences(a, [b])?;
+    if a == b {
+        return Err(Degenerate::CoincidentPoints);
+    }
+    // Seen from `a` the plane is `nu - height ninf`. The length of u does not matter: it is brought near 1.
+    let height = plane.signed_distance(a);
+    if !height.is_finite() {
+        return Err(Degenerate::NotFinite);
+    }
+    let local = Plane::new(plane.e1, plane.e2, plane.e3, -height);
+    let [u] = edges.map(|edge| edge / power_of_two(&edges));
+    let flat = cga::line_meets_plane_relative(Point::origin(), u.into(), local);
     let bound = T::from_f64(PARALLEL_EPSILONS) * T::EPSILON;
-    if !(flat.no_ninf * flat.no_ninf > bound * bound * direction) {
+    if !(flat.no_ninf.abs() > bound * u.norm_sq().sqrt()) {
         return Err(Degenerate::ParallelLineAndPlane);
     }
     Ok(a.moved(flat.point()?.position()))
@@ -28,9 +38,12 @@ pub fn line_meets_plane<T: Real>(a: Point<T>, b: Point<T>, plane: Plane<T>) -> R
 /// The line in which two planes meet, direct: `undual(pi1 ^ pi2)`; it points along `nu1 x nu2`.
 ///
 /// # Errors
-/// Planes that are parallel within rounding.
+/// Planes that are parallel within rounding, a number that is not finite.
 pub fn planes_meet<T: Real>(first: Plane<T>, second: Plane<T>) -> Result<Line<T>, Degenerate> {
     let dual: DualLine<T> = first ^ second;
+    if !<[T; 6]>::from(dual).iter().all(|part| part.is_finite()) {
+        return Err(Degenerate::NotFinite);
+    }
     let sine_sq = dual.e23 * dual.e23 + dual.e31 * dual.e31 + dual.e12 * dual.e12;
     let bound = T::from_f64(PARALLEL_EPSILONS) * T::EPSILON;
     if !(sine_sq > bound * bound) {
@@ -55,7 +68,8 @@ pub enum SpheresMeet<T = f64> {
 /// The meet of two spheres, `undual(s1 ^ s2)`, in the frame of the first centre.
 ///
 /// There the first sphere is `no - r1²/2 ninf`, and with the second centre at d along the unit vector u the radical plane
-/// is at `h = (d² + r1² - r2²) / 2d`, the circle's radius squared is `r1² - h²`.
+/// is at `h = (d² + r1² - r2²) / 2d`. The circle's radius `sqrt(r1² - h²)` is the height of a triangle with the sides
+/// r1, r2 and d; Heron's formula in factors keeps its digits also where one sphere is much larger than the other.
 ///
 /// # Errors
 /// An imaginary sphere, a number that is not finite.
@@ -78,8 +92,13 @@ pub fn spheres_meet<T: Real>(first: Sphere<T>, second: Sphere<T>) -> Result<Sphe
     let half = T::ratio(1, 2);
     // (r1 - r2)(r1 + r2) in the place of r1² - r2²: no digits are lost for nearly equal radii.
     let height = (distance + (r1 - r2) * (r1 + r2) / distance) * half;
-    let radius_sq = ((r1 - height) * (r1 + height)).max(T::zero());
+    let sum = r1 + r2;
+    let spread = (r1 - r2).abs();
+    // Not negative: separate and nested spheres have left above.
+    let radius =
+        ((distance + sum) * (sum - distance)).sqrt() * ((distance - spread) * (distance + spread)).sqrt() * half
+            / distance;
     let normal: Vector<T> = along / distance;
     let centre = first.centre().moved(normal * height);
-    Ok(SpheresMeet::Circle(CircleParts { centre, radius: radius_sq.sqrt(), normal }))
+    Ok(SpheresMeet::Circle(CircleParts { centre, radius, normal }))
 }

@@ -20,6 +20,7 @@ mod mesh_topology;
 mod points;
 mod reflections;
 mod rounds;
+mod scaled;
 
 pub use degenerate::Degenerate;
 pub use facet::{Crossing, Facet};

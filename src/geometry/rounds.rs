@@ -30,7 +30,8 @@
 //! }
 //! ```
 
-use super::Degenerate;
+use super::scaled::{differences, is_subnormal, power_of_two, squared_in};
+use super::{Degenerate, plane_through};
 use crate::algebra::Real;
 use crate::algebra::cga::{self, Circle, Infinity, Point, Round, Sphere};
 use crate::algebra::g3::Vector;
@@ -47,36 +48,37 @@ pub(super) const COLLINEAR_EPSILONS: f64 = 9.0;
 /// |u| |v| |w| for the sum of the absolute products.
 const COPLANAR_EPSILONS: f64 = 21.0;
 
-pub(super) fn finite<T: Real>(points: &[Point<T>]) -> Result<(), Degenerate> {
-    let finite = points.iter().all(|p| p.x.is_finite() && p.y.is_finite() && p.z.is_finite());
-    if finite { Ok(()) } else { Err(Degenerate::NotFinite) }
-}
-
 /// The sphere through four points: `dual(a ^ b ^ c ^ d)`, normalised, in the frame of `a`.
 ///
 /// # Errors
-/// Points that lie in one plane within rounding, a coordinate that is not finite.
+/// Points that lie in one plane within rounding, a coordinate that is not finite, a squared radius out of range.
 pub fn sphere_through<T: Real>(a: Point<T>, b: Point<T>, c: Point<T>, d: Point<T>) -> Result<Sphere<T>, Degenerate> {
-    finite(&[a, b, c, d])?;
-    let round = cga::circumsphere_relative(a, b, c, d);
-    let edges = [b, c, d].map(|point| a.displacement_to(point).norm_sq());
+    let edges = differences(a, [b, c, d])?;
+    let unit = power_of_two(&edges);
+    let [u, v, w] = edges.map(|edge| edge / unit);
+    let round = cga::circumsphere_relative(Point::origin(), u.into(), v.into(), w.into());
     let bound = T::from_f64(COPLANAR_EPSILONS) * T::EPSILON;
-    if !(round.no * round.no > bound * bound * edges[0] * edges[1] * edges[2]) {
+    if !(round.no.abs() > bound * u.norm_sq().sqrt() * v.norm_sq().sqrt() * w.norm_sq().sqrt()) {
         return Err(Degenerate::CoplanarPoints);
     }
-    Ok(relative_sphere(a, round))
+    let centre = relative_centre(round)?;
+    let moved = a.moved(centre * unit);
+    Ok(Sphere::new(moved.x, moved.y, moved.z, squared_in(centre.norm_sq(), unit)?))
 }
 
 /// The smallest sphere through two points: `(A + B)/2 + (A . B)/2 ninf`.
 ///
 /// # Errors
-/// Coincident points, a coordinate that is not finite.
+/// Coincident points, a coordinate that is not finite, a squared radius out of range.
 pub fn sphere_through_pair<T: Real>(a: Point<T>, b: Point<T>) -> Result<Sphere<T>, Degenerate> {
-    finite(&[a, b])?;
+    let edges = differences(a, [b])?;
     if a == b {
         return Err(Degenerate::CoincidentPoints);
     }
-    Ok(cga::pair_sphere(a, b))
+    let unit = power_of_two(&edges);
+    let [half] = edges.map(|edge| edge / unit * T::ratio(1, 2));
+    let centre = cga::pair_sphere(a, b).centre();
+    Ok(Sphere::new(centre.x, centre.y, centre.z, squared_in(half.norm_sq(), unit)?))
 }
 
 /// A circle by centre, radius and plane.
@@ -93,11 +95,15 @@ pub struct CircleParts<T = f64> {
 /// The circle through three points, formed in the frame of `a`.
 ///
 /// # Errors
-/// Collinear points, a coordinate that is not finite.
+/// Collinear points, a coordinate that is not finite, edges of such different length that the square of the area is out
+/// of range.
 pub fn circle_through<T: Real>(a: Point<T>, b: Point<T>, c: Point<T>) -> Result<CircleParts<T>, Degenerate> {
-    let normal = super::plane_through(a, b, c)?.normal();
-    let sphere = relative_sphere(a, cga::circle_sphere_relative(a, b, c));
-    Ok(CircleParts { centre: sphere.centre(), radius: sphere.rho_sq.sqrt(), normal })
+    let normal = plane_through(a, b, c)?.normal();
+    let edges = differences(a, [b, c])?;
+    let unit = power_of_two(&edges);
+    let [u, v] = edges.map(|edge| edge / unit);
+    let centre = relative_centre(cga::circle_sphere_relative(Point::origin(), u.into(), v.into()))?;
+    Ok(CircleParts { centre: a.moved(centre * unit), radius: centre.norm_sq().sqrt() * unit, normal })
 }
 
 /// Centre, radius and normal of a circle given by its blade `K`: the centre is that of `K ninf K`,
@@ -117,8 +123,8 @@ pub fn circle_parts<T: Real>(circle: Circle<T>) -> Result<CircleParts<T>, Degene
     if plane_sq == T::zero() {
         return Err(Degenerate::PointAtInfinity);
     }
-    // The square of a 3-vector is minus its <K ~K>, and that of the 4-blade ninf ^ K is -|nu|²: the signs cancel.
-    let rho_sq = circle.norm_sq() / plane_sq;
+    // K² = -<K ~K> for a 3-vector, and (ninf ^ K)² = -|nu|² for the 4-blade.
+    let rho_sq = -circle.norm_sq() / plane_sq;
     let centre = cga::circle_centre(circle).centre()?;
     if !(rho_sq >= T::zero()) {
         return Err(Degenerate::ImaginaryRound);
@@ -128,11 +134,12 @@ pub fn circle_parts<T: Real>(circle: Circle<T>) -> Result<CircleParts<T>, Degene
     Ok(CircleParts { centre, radius: rho_sq.sqrt(), normal })
 }
 
-/// Normalises a round that is relative to a point on it, and moves it to the world.
-fn relative_sphere<T: Real>(on: Point<T>, round: Round<T>) -> Sphere<T> {
-    let centre = Vector::new(round.e1, round.e2, round.e3) / round.no;
-    let moved = on.moved(centre);
-    Sphere::new(moved.x, moved.y, moved.z, centre.norm_sq())
+/// From a point on a round to its centre, for a round that is relative to that point.
+fn relative_centre<T: Real>(round: Round<T>) -> Result<Vector<T>, Degenerate> {
+    if is_subnormal(round.no) {
+        return Err(Degenerate::OutOfRange);
+    }
+    Ok(Vector::new(round.e1, round.e2, round.e3) / round.no)
 }
 
 impl<T: Real> Sphere<T> {
@@ -151,8 +158,11 @@ impl<T: Real> Sphere<T> {
     /// The radius.
     ///
     /// # Errors
-    /// A negative `rho_sq`: the sphere is imaginary.
+    /// A negative `rho_sq`: the sphere is imaginary. One that is not finite.
     pub fn radius(self) -> Result<T, Degenerate> {
+        if !self.rho_sq.is_finite() {
+            return Err(Degenerate::NotFinite);
+        }
         if self.rho_sq >= T::zero() { Ok(self.rho_sq.sqrt()) } else { Err(Degenerate::ImaginaryRound) }
     }
 }
