@@ -1,0 +1,198 @@
+//! The conventions, one by one, with numbers for which each sign could be wrong.
+
+use super::{Random, add, components, cross, dot, length, point, position, scale, sub, vector};
+use ga_physics::algebra::cga::{self, Dilator, Infinity, Motor, Point, Sphere, Translator};
+use ga_physics::algebra::g3::{self, Bivector, Rotor, Vector};
+use ga_physics::geometry::{inside_is_negative, line_through, plane_through, planes_meet};
+use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// Rounding of the few operations in each of these formulas, at coordinates of order 1.
+const CLOSE: f64 = 1e-14;
+
+fn near(a: [f64; 3], b: [f64; 3]) -> bool {
+    length(sub(a, b)) < CLOSE
+}
+
+#[test]
+fn points_have_minus_half_the_squared_distance_as_inner_product() {
+    let (x, y) = (Point::new(1.0, 2.0, -3.0), Point::new(4.0, -2.0, 9.0));
+    assert_eq!(x | y, -(9.0 + 16.0 + 144.0) / 2.0);
+    assert_eq!(x.distance_sq_to(y), 169.0);
+    assert_eq!(x | Infinity, -1.0);
+    assert_eq!(Point::<f64>::origin() | Infinity, -1.0);
+    assert_eq!(x | x, 0.0);
+}
+
+#[test]
+fn the_dual_squares_to_minus_one_in_both_algebras() {
+    // dual(1) = I, and I = -e123_no_ninf.
+    let i = cga::Pseudoscalar::new(-1.0);
+    assert_eq!(i * i, -1.0);
+    let i3 = g3::Trivector::new(1.0);
+    assert_eq!(i3 * i3, -1.0);
+    let v = Vector::new(2.0, 3.0, 5.0);
+    assert_eq!(<[f64; 3]>::from(v.dual()), [2.0, 3.0, 5.0], "the bivector v I3, in the order e23, e31, e12");
+    assert_eq!(v.dual().dual(), -v);
+    let m = cga::Multivector::from_fn(|blade| blade as f64);
+    assert_eq!(m.dual().dual(), -m);
+    assert_eq!(m.dual().undual(), m);
+    assert_eq!(m.dual(), m * cga::Multivector::from(i), "I commutes with everything");
+    assert_eq!(m.dual(), cga::Multivector::from(i) * m);
+}
+
+#[test]
+fn spheres_are_positive_inside_and_the_reports_are_negative() {
+    let sphere = Sphere::around(Point::new(1.0, 2.0, 3.0), 5.0);
+    let inside = Point::new(1.0, 2.0, 5.0);
+    assert_eq!(inside | sphere, (25.0 - 4.0) / 2.0);
+    assert_eq!(Point::new(1.0, 2.0, 10.0) | sphere, (25.0 - 49.0) / 2.0);
+    assert_eq!(sphere | Infinity, -1.0);
+    let reports = inside_is_negative(sphere);
+    assert_eq!(inside | reports, -(25.0 - 4.0) / 2.0);
+    assert_eq!(Infinity | reports, 1.0);
+    assert_eq!(sphere | sphere, 25.0, "s² = rho²");
+}
+
+#[test]
+fn planes_are_positive_on_the_side_of_the_right_hand_normal() {
+    let plane = plane_through(Point::new(0.0, 0.0, 2.0), Point::new(1.0, 0.0, 2.0), Point::new(0.0, 1.0, 2.0)).unwrap();
+    assert_eq!(<[f64; 4]>::from(plane), [0.0, 0.0, 1.0, 2.0], "nu + delta ninf");
+    assert_eq!(Point::new(7.0, 8.0, 5.0) | plane, 3.0);
+    assert_eq!(plane.signed_distance(Point::new(7.0, 8.0, -5.0)), -7.0);
+    let turned = plane_through(Point::new(0.0, 0.0, 2.0), Point::new(0.0, 1.0, 2.0), Point::new(1.0, 0.0, 2.0));
+    assert_eq!(components(turned.unwrap().normal()), [0.0, 0.0, -1.0]);
+    let mut random = Random(1);
+    for _ in 0..100 {
+        let [a, b, c] = [random.vector(), random.vector(), random.vector()];
+        let normal = cross(sub(b, a), sub(c, a));
+        let expected = scale(normal, 1.0 / length(normal));
+        let found = plane_through(point::<f64>(a), point(b), point(c)).unwrap();
+        // The sine of the corner at a amplifies rounding; corners below 0.01 are left out.
+        if length(normal) > 0.01 * length(sub(b, a)) * length(sub(c, a)) {
+            assert!(length(sub(components(found.normal()), expected)) < 100.0 * CLOSE, "{a:?} {b:?} {c:?}");
+        }
+    }
+}
+
+#[test]
+fn rotors_turn_by_the_whole_angle_in_the_sense_of_their_plane() {
+    let quarter = Rotor::exp(Bivector::new(0.0, 0.0, -FRAC_PI_2 / 2.0));
+    assert!(near(components(quarter.apply(Vector::new(1.0, 0.0, 0.0))), [0.0, 1.0, 0.0]), "e1 to e2 in e12");
+    let quarter = Rotor::exp(Bivector::new(-FRAC_PI_2 / 2.0, 0.0, 0.0));
+    assert!(near(components(quarter.apply(Vector::new(0.0, 1.0, 0.0))), [0.0, 0.0, 1.0]), "e2 to e3 in e23");
+    let quarter = Rotor::exp(Bivector::new(0.0, -FRAC_PI_2 / 2.0, 0.0));
+    assert!(near(components(quarter.apply(Vector::new(0.0, 0.0, 1.0))), [1.0, 0.0, 0.0]), "e3 to e1 in e31");
+    assert_eq!(Bivector::new(0.0, 0.0, 1.0) * Bivector::new(0.0, 0.0, 1.0), g3::Even::new(-1.0, 0.0, 0.0, 0.0));
+}
+
+#[test]
+fn rotors_are_quaternions_with_the_bivector_part_negated() {
+    let mut random = Random(2);
+    for _ in 0..200 {
+        let (axis, angle, v) = (random.direction(), TAU * random.signed(), random.vector());
+        let theirs = UnitQuaternion::from_axis_angle(&Unit::new_normalize(Vector3::from(axis)), angle);
+        let ours = Rotor::from_axis_angle(vector(scale(axis, 3.0)), angle).unwrap();
+        let [w, x, y, z] = [theirs.w, theirs.i, theirs.j, theirs.k];
+        let numbers = <[f64; 4]>::from(ours);
+        for (found, expected) in numbers.iter().zip([w, -x, -y, -z]) {
+            assert!((found - expected).abs() < CLOSE, "{numbers:?} {theirs:?}");
+        }
+        let image = theirs * Vector3::from(v);
+        assert!(near(components(ours.apply(vector(v))), image.into()));
+        // Products correspond in the same order.
+        let second = Rotor::from_axis_angle(vector(v), 1.0).unwrap();
+        let unit = Unit::new_normalize(Vector3::from(v));
+        let both = UnitQuaternion::from_axis_angle(&unit, 1.0) * theirs;
+        let product = <[f64; 4]>::from(second * ours);
+        let expected: &Quaternion<f64> = both.quaternion();
+        for (found, expected) in product.iter().zip([expected.w, -expected.i, -expected.j, -expected.k]) {
+            assert!((found - expected).abs() < CLOSE);
+        }
+    }
+}
+
+#[test]
+fn translators_move_and_motors_turn_first() {
+    let t = Vector::new(1.0, -2.0, 4.0);
+    let x = Point::new(10.0, 20.0, 30.0);
+    assert_eq!(position(Translator::by(t).apply(x)), [11.0, 18.0, 34.0]);
+    assert_eq!(Translator::by(t).displacement(), t);
+    assert_eq!(Translator::by(t).e1_ninf, -0.5, "T = 1 - t ninf / 2");
+    let quarter = Rotor::from_axis_angle(Vector::new(0.0, 0.0, 1.0), FRAC_PI_2).unwrap();
+    let motor = Motor::from_parts(t, quarter);
+    assert!(near(position(motor.apply(Point::new(1.0, 0.0, 0.0))), [1.0, -1.0, 4.0]), "T R: the rotation first");
+    assert!(near(components(motor.translation()), [1.0, -2.0, 4.0]));
+    assert!(near(position(motor.rev().apply(motor.apply(x))), position(x)));
+    let other = quarter * Translator::by(t);
+    assert!(near(position(other.apply(Point::new(1.0, 0.0, 0.0))), [2.0, 2.0, 4.0]), "R T: the translation first");
+}
+
+#[test]
+fn motors_carry_planes_spheres_and_lines_with_their_points() {
+    let mut random = Random(3);
+    for _ in 0..100 {
+        let rotor = Rotor::from_axis_angle(vector(random.direction()), 3.0 * random.signed()).unwrap();
+        let motor = Motor::from_parts(vector(random.vector()), rotor);
+        let [a, b, c, x] = [(); 4].map(|()| point::<f64>(random.vector()));
+        let Ok(plane) = plane_through(a, b, c) else { continue };
+        let moved = motor.apply(plane);
+        assert!(((motor.apply(x) | moved) - (x | plane)).abs() < CLOSE);
+        let sphere = Sphere::around(a, 2.0);
+        assert!(((motor.apply(x) | motor.apply(sphere)) - (x | sphere)).abs() < CLOSE);
+        let line = line_through(a, b).unwrap();
+        let expected = line_through(motor.apply(a), motor.apply(b)).unwrap();
+        let found = <[f64; 6]>::from(motor.apply(line));
+        assert!(found.iter().zip(<[f64; 6]>::from(expected)).all(|(f, e)| (f - e).abs() < CLOSE));
+    }
+}
+
+#[test]
+fn dilators_scale_by_exp_of_minus_alpha() {
+    // exp(alpha/2 e ebar) = cosh(alpha/2) + sinh(alpha/2) e ebar, and e ebar = -no_ninf.
+    let alpha: f64 = 0.7;
+    let dilator = Dilator::new((alpha / 2.0).cosh(), -(alpha / 2.0).sinh());
+    let x = Point::new(1.0, 2.0, -3.0);
+    assert!(near(position(dilator.apply(x)), scale([1.0, 2.0, -3.0], (-alpha).exp())));
+    let made = Dilator::by((-alpha).exp()).unwrap();
+    assert!((made.s - dilator.s).abs() < CLOSE && (made.no_ninf - dilator.no_ninf).abs() < CLOSE);
+    for factor in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(Dilator::by(factor), None, "{factor}");
+    }
+    let sphere = Dilator::by(3.0).unwrap().apply(Sphere::around(x, 2.0));
+    assert!((sphere.rho_sq - 36.0).abs() < 36.0 * CLOSE && near(position(sphere.centre()), [3.0, 6.0, -9.0]));
+}
+
+#[test]
+fn lines_hold_minus_their_direction_and_their_moment() {
+    let (a, b) = ([1.0, 2.0, 3.0], [4.0, 6.0, 15.0]);
+    let line = line_through(point::<f64>(a), point(b)).unwrap();
+    assert_eq!([line.e1_no_ninf, line.e2_no_ninf, line.e3_no_ninf], [-3.0, -4.0, -12.0], "ei no ninf = -(no ei ninf)");
+    assert_eq!([line.e23_ninf, line.e31_ninf, line.e12_ninf], cross(a, b));
+    assert_eq!(line, point::<f64>(a) ^ point(b) ^ Infinity, "small integers: the blade itself is exact");
+    assert_eq!(line.norm_sq(), -169.0, "<L ~L> = -L²");
+}
+
+#[test]
+fn planes_meet_along_the_cross_product_of_their_normals() {
+    let floor = plane_through(Point::new(0.0, 0.0, 2.0), Point::new(1.0, 0.0, 2.0), Point::new(0.0, 1.0, 2.0)).unwrap();
+    let wall = plane_through(Point::new(3.0, 0.0, 0.0), Point::new(3.0, 1.0, 0.0), Point::new(3.0, 0.0, 1.0)).unwrap();
+    // Normals e3 and e1: the line x = 3, z = 2 along e3 x e1 = e2.
+    let expected = line_through(Point::new(3.0, 0.0, 2.0), Point::new(3.0, 1.0, 2.0)).unwrap();
+    assert_eq!(planes_meet(floor, wall).unwrap(), expected);
+    assert_eq!(planes_meet(wall, floor).unwrap(), -expected);
+}
+
+#[test]
+fn omega_is_the_dual_of_the_axial_vector() {
+    // v = x . Omega is omega x x with Omega = omega I3.
+    let mut random = Random(4);
+    for _ in 0..100 {
+        let (omega, x) = (random.vector(), random.vector());
+        let velocity = vector::<f64>(x) | vector(omega).dual();
+        assert!(near(components(velocity), cross(omega, x)));
+        let momentum = vector::<f64>(x) ^ velocity;
+        let expected = add(scale(omega, dot(x, x)), scale(x, -dot(x, omega)));
+        assert!(near(<[f64; 3]>::from(momentum), expected), "x ^ (x . Omega) is x x (omega x x)");
+    }
+}
