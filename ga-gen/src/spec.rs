@@ -7,6 +7,7 @@ use crate::polynomial::Polynomial;
 use crate::product::Pseudoscalar;
 use crate::scalar::Rational;
 use crate::signature::Signature;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use syn::spanned::Spanned;
 use syn::{Attribute, BinOp, Error, Expr, Ident, Lit, UnOp, Visibility};
@@ -71,6 +72,8 @@ pub struct Spec {
     pub types: Vec<Type>,
     /// Named formulas.
     pub kernels: Vec<KernelSource>,
+    /// What [`Self::sample`] found before: nearly every operation has parameters of the same two names.
+    samples: RefCell<BTreeMap<(usize, String), Vec<Fingerprint>>>,
 }
 
 impl Spec {
@@ -106,6 +109,7 @@ impl Spec {
             pseudoscalar: pseudoscalar.transpose()?,
             types,
             kernels: source.kernels.clone(),
+            samples: RefCell::default(),
         })
     }
 
@@ -126,6 +130,16 @@ impl Spec {
     /// # Errors
     /// A unit type that is neither an even versor nor a vector.
     pub fn sample(&self, index: usize, parameter: &str) -> syn::Result<Vec<Fingerprint>> {
+        let key = (index, parameter.to_string());
+        if let Some(known) = self.samples.borrow().get(&key) {
+            return Ok(known.clone());
+        }
+        let fields = self.new_sample(index, parameter)?;
+        self.samples.borrow_mut().insert(key, fields.clone());
+        Ok(fields)
+    }
+
+    fn new_sample(&self, index: usize, parameter: &str) -> syn::Result<Vec<Fingerprint>> {
         let ty = &self.types[index];
         let mut stream = Stream::named(&format!("{parameter}: {}", ty.name));
         let mut fields = vec![Fingerprint::constant(Rational::ZERO); ty.fields.len()];
