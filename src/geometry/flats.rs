@@ -32,8 +32,7 @@ pub fn plane_through<T: Real>(a: Point<T>, b: Point<T>, c: Point<T>) -> Result<P
     let plane = cga::plane_relative(Point::origin(), u.into(), v.into());
     let doubled_area_sq = plane.e1 * plane.e1 + plane.e2 * plane.e2 + plane.e3 * plane.e3;
     let bound = T::from_f64(COLLINEAR_EPSILONS) * T::EPSILON;
-    // Not `<=`: an edge of length 0 is degenerate as well.
-    if !(doubled_area_sq > bound * bound * u.norm_sq() * v.norm_sq()) {
+    if doubled_area_sq <= bound * bound * u.norm_sq() * v.norm_sq() {
         return Err(Degenerate::CollinearPoints);
     }
     let scale = T::one() / doubled_area_sq.sqrt();

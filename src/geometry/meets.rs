@@ -29,7 +29,7 @@ pub fn line_meets_plane<T: Real>(a: Point<T>, b: Point<T>, plane: Plane<T>) -> R
     let [u] = edges.map(|edge| edge / power_of_two(&edges));
     let flat = cga::line_meets_plane_relative(Point::origin(), u.into(), local);
     let bound = T::from_f64(PARALLEL_EPSILONS) * T::EPSILON;
-    if !(flat.no_ninf.abs() > bound * u.norm_sq().sqrt()) {
+    if flat.no_ninf.abs() <= bound * u.norm_sq().sqrt() {
         return Err(Degenerate::ParallelLineAndPlane);
     }
     Ok(a.moved(flat.point()?.position()))
@@ -46,7 +46,7 @@ pub fn planes_meet<T: Real>(first: Plane<T>, second: Plane<T>) -> Result<Line<T>
     }
     let sine_sq = dual.e23 * dual.e23 + dual.e31 * dual.e31 + dual.e12 * dual.e12;
     let bound = T::from_f64(PARALLEL_EPSILONS) * T::EPSILON;
-    if !(sine_sq > bound * bound) {
+    if sine_sq <= bound * bound {
         return Err(Degenerate::ParallelPlanes);
     }
     Ok(dual.undual())

@@ -58,7 +58,7 @@ pub fn sphere_through<T: Real>(a: Point<T>, b: Point<T>, c: Point<T>, d: Point<T
     let [u, v, w] = edges.map(|edge| edge / unit);
     let round = cga::circumsphere_relative(Point::origin(), u.into(), v.into(), w.into());
     let bound = T::from_f64(COPLANAR_EPSILONS) * T::EPSILON;
-    if !(round.no.abs() > bound * u.norm_sq().sqrt() * v.norm_sq().sqrt() * w.norm_sq().sqrt()) {
+    if round.no.abs() <= bound * u.norm_sq().sqrt() * v.norm_sq().sqrt() * w.norm_sq().sqrt() {
         return Err(Degenerate::CoplanarPoints);
     }
     let centre = relative_centre(round)?;
@@ -126,7 +126,10 @@ pub fn circle_parts<T: Real>(circle: Circle<T>) -> Result<CircleParts<T>, Degene
     // K² = -<K ~K> for a 3-vector, and (ninf ^ K)² = -|nu|² for the 4-blade.
     let rho_sq = -circle.norm_sq() / plane_sq;
     let centre = cga::circle_centre(circle).centre()?;
-    if !(rho_sq >= T::zero()) {
+    if !rho_sq.is_finite() {
+        return Err(Degenerate::NotFinite);
+    }
+    if rho_sq < T::zero() {
         return Err(Degenerate::ImaginaryRound);
     }
     let scale = T::one() / plane_sq.sqrt();

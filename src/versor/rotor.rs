@@ -14,8 +14,8 @@ pub struct NotARotor {
     pub norm_sq: f64,
 }
 
-/// Below this angle `sin b / b` is its series `1 - b²/6`: the next term, b⁴/120, is then under half an epsilon of f64
-/// (b < 7e-4 gives 2e-15 · 1e-1); above it the quotient loses nothing, since libm's sine is good to an ulp.
+/// Below this angle `sin b / b` is its series `1 - b²/6`: the next term, b⁴/120 = 7e-17, is then under half an epsilon of
+/// f64; above it the quotient loses nothing, since libm's sine is good to an ulp.
 const SERIES_BELOW: f64 = 3e-4;
 
 impl<T: Real> Rotor<T> {
@@ -34,10 +34,12 @@ impl<T: Real> Rotor<T> {
     /// # Errors
     /// An axis whose length is zero, infinite or not a number.
     pub fn from_axis_angle(axis: Vector<T>, angle_rad: T) -> Result<Self, NotARotor> {
-        let norm_sq = axis.norm_sq();
-        let half = angle_rad * T::ratio(1, 2) / norm_sq.sqrt();
-        if !half.is_finite() {
-            return Err(NotARotor { norm_sq: norm_sq.to_f64() });
+        // The largest component is taken out first: the square of a short axis would underflow, and lose its digits.
+        let largest = axis.e1.abs().max(axis.e2.abs()).max(axis.e3.abs());
+        let axis = axis / largest;
+        let half = angle_rad * T::ratio(1, 2) / axis.norm_sq().sqrt();
+        if !(largest > T::zero() && half.is_finite()) {
+            return Err(NotARotor { norm_sq: (largest * largest * axis.norm_sq()).to_f64() });
         }
         Ok(Self::exp(Bivector::new(-axis.e1 * half, -axis.e2 * half, -axis.e3 * half)))
     }
@@ -45,11 +47,12 @@ impl<T: Real> Rotor<T> {
     /// The unit rotor in the direction of an even multivector: all numbers times `1/sqrt(a ~a)`.
     ///
     /// # Errors
-    /// A norm that is zero, infinite or not a number.
+    /// A norm that is zero, infinite or not a number, or whose square is so small that it has lost digits.
     pub fn normalise(a: Even<T>) -> Result<Self, NotARotor> {
         let norm_sq = a.norm_sq();
         let scale = T::one() / norm_sq.sqrt();
-        if !(scale.is_finite() && norm_sq.is_finite()) {
+        // The smallest normal number times epsilon is the smallest number of all.
+        if !(scale.is_finite() && norm_sq.is_finite() && norm_sq * T::EPSILON > T::zero()) {
             return Err(NotARotor { norm_sq: norm_sq.to_f64() });
         }
         Ok(Self::new(a.s * scale, a.e23 * scale, a.e31 * scale, a.e12 * scale))

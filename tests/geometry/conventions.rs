@@ -1,6 +1,7 @@
 //! The conventions, one by one, with numbers for which each sign could be wrong.
 
-use super::{Random, add, components, cross, dot, length, point, position, scale, sub, vector};
+use super::{Random, Tested, add, components, cross, dot, length, point, position, scale, sub, vector};
+use ga_physics::algebra::Real;
 use ga_physics::algebra::cga::{self, Dilator, Infinity, Motor, Point, Sphere, Translator};
 use ga_physics::algebra::g3::{self, Bivector, Rotor, Vector};
 use ga_physics::geometry::{inside_is_negative, line_through, plane_through, planes_meet};
@@ -195,4 +196,48 @@ fn omega_is_the_dual_of_the_axial_vector() {
         let expected = add(scale(omega, dot(x, x)), scale(x, -dot(x, omega)));
         assert!(near(<[f64; 3]>::from(momentum), expected), "x ^ (x . Omega) is x x (omega x x)");
     }
+}
+
+/// `|exp(b e23) - (cos b + sin b e23)|`, relative in the bivector part, on a logarithmic grid.
+fn worst_exp<T: Tested>() -> f64 {
+    let mut worst = 0.0_f64;
+    for step in -180..=0 {
+        let b = T::from_f64(10f64.powf(f64::from(step) / 10.0));
+        let x = b.to_f64();
+        // Six terms: the seventh is below 2e-10 x^12, and x is at most 1; so compare with libm's sine from 0.1 on.
+        let square = x * x;
+        let series = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0)));
+        let expected = if x < 0.1 { series * x } else { x.sin() };
+        let [s, e23, e31, e12] = <[T; 4]>::from(Rotor::exp(Bivector::new(b, T::zero(), T::zero()))).map(Real::to_f64);
+        assert_eq!((e31, e12), (0.0, 0.0));
+        worst = worst.max((e23 / expected - 1.0).abs()).max((s - x.cos()).abs());
+    }
+    worst / T::EPSILON.to_f64()
+}
+
+#[test]
+fn exp_loses_nothing_at_any_small_angle() {
+    let (double, single) = (worst_exp::<f64>(), worst_exp::<f32>());
+    println!("exp: {double:.2} epsilons of f64, {single:.2} of f32");
+    assert!(double <= 2.0 && single <= 2.0, "norm, sine, quotient and product: {double:.2}, {single:.2} epsilons");
+}
+
+#[test]
+fn axes_of_any_length_but_zero_turn_the_same() {
+    let expected = Rotor::from_axis_angle(Vector::new(1.0, 2.0, -3.0), 0.5).unwrap();
+    for exponent in [-307, -200, -161, -1, 100, 200, 307] {
+        let length = 10f64.powi(exponent);
+        let found = Rotor::from_axis_angle(Vector::new(length, 2.0 * length, -3.0 * length), 0.5).unwrap();
+        let apart = <[f64; 4]>::from(found).iter().zip(<[f64; 4]>::from(expected)).all(|(f, e)| (f - e).abs() < 1e-15);
+        assert!(apart, "1e{exponent}: {found:?}");
+    }
+    for bad in [[0.0; 3], [f64::NAN, 0.0, 1.0], [0.0, f64::INFINITY, 1.0], [0.0, 1.0, f64::NAN]] {
+        assert!(Rotor::from_axis_angle(vector(bad), 0.5).is_err(), "{bad:?}");
+    }
+    assert!(Rotor::from_axis_angle(vector([0.0, 1.0, 0.0]), f64::NAN).is_err());
+    for scale in [0.0, 1e-160, 1e200, f64::NAN] {
+        assert!(Rotor::normalise(g3::Even::new(scale, scale, 0.0, 0.0)).is_err(), "{scale:e}");
+    }
+    let unit = Rotor::normalise(g3::Even::new(3e-100, 0.0, 4e-100, 0.0)).unwrap();
+    assert!((unit.s - 0.6).abs() < 1e-15 && (unit.e31 - 0.8).abs() < 1e-15);
 }
