@@ -2,9 +2,11 @@
 //! and a brute-force separating-axis test.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+use ga_physics::algebra::Real;
 use ga_physics::algebra::cga::{Point, Sphere};
 use ga_physics::algebra::g3::{Bivector, Rotor, Vector};
 use ga_physics::collision::{self, Collider, Contact, Polyhedron, balls_overlap, first_overlap};
+use ga_physics::geometry::mesh::Mesh;
 use ga_physics::rigid::{Bodies, Forces, Inertia, totals};
 use ga_physics::simulation::{Event, EventKind, Setup, SimulationError, World};
 
@@ -35,41 +37,44 @@ fn diagonal(moments: [f64; 3]) -> [[f64; 3]; 3] {
 }
 
 /// A box about its centre of mass, with the inertia of a uniform one of mass 1.
-fn cuboid(size: [f64; 3]) -> (Polyhedron<f64>, Inertia<f64>) {
+fn cuboid<T: Real>(size: [f64; 3]) -> (Polyhedron<T>, Inertia<T>) {
     let half = size.map(|edge| edge / 2.0);
     let corner = |i: usize| Point::from_fn(|bit| if i >> bit & 1 == 1 { half[bit] } else { -half[bit] });
     let vertices: Vec<Point> = (0..8).map(corner).collect();
     let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let triangles: Vec<[u32; 3]> = faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
     let radius = half.iter().map(|h| h * h).sum::<f64>().sqrt();
-    let polyhedron = Polyhedron::new(&vertices, &triangles, Sphere::around(Point::origin(), radius)).unwrap();
+    let polyhedron =
+        Polyhedron::new(&Mesh::new(vertices, triangles).unwrap(), Sphere::around(Point::origin(), radius)).unwrap();
     let [x, y, z] = size.map(|edge| edge * edge / 12.0);
     (polyhedron, Inertia::new(1.0, diagonal([y + z, z + x, x + y])).unwrap())
 }
 
 /// A tetrahedron about its centre of mass.
-fn tetrahedron() -> (Polyhedron<f64>, Inertia<f64>) {
+fn tetrahedron<T: Real>() -> (Polyhedron<T>, Inertia<T>) {
     let corners = [[0.0, 0.0, 0.0], [1.1, 0.0, 0.0], [0.4, 0.95, 0.0], [0.45, 0.3, 0.85]];
     let centre: [f64; 3] = std::array::from_fn(|i| corners.iter().map(|c| c[i]).sum::<f64>() / 4.0);
     let vertices: Vec<Point> = corners.iter().map(|c| Point::from_fn(|i| c[i] - centre[i])).collect();
-    let triangles = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
     let radius = vertices.iter().map(|v| v.position().norm_sq()).fold(0.0, f64::max).sqrt();
-    let polyhedron = Polyhedron::new(&vertices, &triangles, Sphere::around(Point::origin(), radius)).unwrap();
+    let polyhedron =
+        Polyhedron::new(&Mesh::new(vertices, triangles).unwrap(), Sphere::around(Point::origin(), radius)).unwrap();
     // Any inertia does for the laws tested here.
     (polyhedron, Inertia::new(2.0, [[0.1, 0.01, 0.0], [0.01, 0.12, -0.02], [0.0, -0.02, 0.11]]).unwrap())
 }
 
-fn push(
-    setup: &mut Setup<f64>,
-    body: (Polyhedron<f64>, Inertia<f64>),
+fn push<T: Real>(
+    setup: &mut Setup<T>,
+    body: (Polyhedron<T>, Inertia<T>),
     at: Point,
     rotor: Rotor<f64>,
     velocity: Vector<f64>,
     omega_world: Bivector<f64>,
 ) {
     let (polyhedron, inertia) = body;
-    let momentum = rotor.apply(inertia.momentum_of(rotor.rev().apply(omega_world)));
-    setup.bodies.push(at, rotor, velocity * inertia.mass, momentum);
+    let rotor = Rotor::normalise(rotor.map(T::from_f64).into()).unwrap();
+    let momentum = rotor.apply(inertia.momentum_of(rotor.rev().apply(omega_world.map(T::from_f64))));
+    setup.bodies.push(at, rotor, velocity.map(T::from_f64) * inertia.mass, momentum);
     setup.inertias.push(inertia);
     setup.colliders.push(Collider::Convex(polyhedron));
 }
@@ -80,8 +85,14 @@ fn push_floor(setup: &mut Setup<f64>) {
     setup.colliders.push(Collider::HalfSpace(Vector::new(0.0, 0.0, 1.0)));
 }
 
-fn empty(restitution: f64) -> Setup<f64> {
-    Setup { bodies: Bodies::default(), inertias: vec![], colliders: vec![], forces: Forces::default(), restitution }
+fn empty<T: Real>(restitution: f64) -> Setup<T> {
+    Setup {
+        bodies: Bodies::default(),
+        inertias: vec![],
+        colliders: vec![],
+        forces: Forces::default(),
+        restitution: T::from_f64(restitution),
+    }
 }
 
 #[test]
@@ -211,8 +222,8 @@ fn the_time_of_an_impact_is_that_of_the_closed_form() {
 }
 
 /// Are two convex polyhedra apart by more than -`slack`? Separating axes: all facet normals and all pairs of edges.
-fn apart(bodies: &Bodies<f64>, shapes: [&Polyhedron<f64>; 2], slack: f64) -> bool {
-    let world = |i: usize, v: Vector<f64>| bodies.rotor[i].apply(v);
+fn apart<T: Real>(bodies: &Bodies<T>, shapes: [&Polyhedron<T>; 2], slack: f64) -> bool {
+    let world = |i: usize, v: Vector<T>| bodies.rotor[i].apply(v).map(Real::to_f64);
     let mut axes: Vec<Vector<f64>> = vec![];
     for (i, shape) in shapes.iter().enumerate() {
         axes.extend(shape.facets.iter().map(|facet| world(i, facet.plane.normal())));
@@ -244,49 +255,140 @@ fn apart(bodies: &Bodies<f64>, shapes: [&Polyhedron<f64>; 2], slack: f64) -> boo
     })
 }
 
-#[test]
-fn random_elastic_collisions_conserve_and_never_overlap() {
+/// Three hundred random pairs that fly at one another, every third of them boxes with parallel faces. Returns how many
+/// collide, and the worst drifts of energy, momentum, angular momentum.
+fn fly_at_one_another<T: Real>(restitution: f64, slack: f64) -> (usize, [f64; 3]) {
     let mut random = Random(3);
     let (mut impacts, mut worst) = (0, [0.0_f64; 3]);
     for round in 0..300 {
-        let mut setup = empty(1.0);
+        let mut setup = empty::<T>(restitution);
         let second = if round % 2 == 0 { tetrahedron() } else { cuboid([0.5, 0.9, 1.3]) };
+        let aligned = round % 6 == 1;
         let shapes = [cuboid([1.0, 0.7, 0.4]), second];
         let spin = |random: &mut Random| Bivector::from(<[f64; 3]>::from(random.vector() * 5.0));
-        let (offset, omegas) = (random.vector() * 0.3, [spin(&mut random), spin(&mut random)]);
-        push(
-            &mut setup,
-            shapes[0].clone(),
-            Point::new(-1.5, 0.0, 0.0),
-            random.rotor(),
-            Vector::new(2.0, 0.0, 0.0),
-            omegas[0],
-        );
+        let turn = |random: &mut Random| if aligned { Rotor::default() } else { random.rotor() };
+        let mut omegas = [spin(&mut random), spin(&mut random)];
+        if aligned {
+            omegas = [Bivector::default(); 2];
+        }
+        let offset = random.vector() * 0.3;
+        let first_at = Point::new(-1.5, 0.0, 0.0);
+        push(&mut setup, shapes[0].clone(), first_at, turn(&mut random), Vector::new(2.0, 0.0, 0.0), omegas[0]);
         let at = Point::new(1.5, offset.e2, offset.e3);
-        push(&mut setup, shapes[1].clone(), at, random.rotor(), Vector::new(-1.0, 0.0, 0.0), omegas[1]);
+        push(&mut setup, shapes[1].clone(), at, turn(&mut random), Vector::new(-1.0, 0.0, 0.0), omegas[1]);
         let mut world = World::new(setup);
         assert!(world.overlaps().is_empty());
         let start = world.totals();
         let mut events = vec![];
         for step in 1..=240 {
-            world.advance_to(f64::from(step) / 120.0, &mut events).unwrap_or_else(|e| panic!("round {round}: {e}"));
-            assert!(apart(world.bodies(), [&shapes[0].0, &shapes[1].0], 1e-9), "round {round}, step {step}: overlap");
+            match world.advance_to(f64::from(step) / 120.0, &mut events) {
+                Ok(()) => {}
+                // Where impacts lose energy, bodies that roll on one another do come to stay in contact.
+                Err(SimulationError::StaysInContact { .. }) if restitution < 1.0 => break,
+                Err(error) => panic!("round {round}: {error}"),
+            }
+            assert!(apart(world.bodies(), [&shapes[0].0, &shapes[1].0], slack), "round {round}, step {step}: overlap");
         }
-        impacts += events.len();
+        impacts += usize::from(!events.is_empty());
         let end = world.totals();
-        let relative = |a: f64, b: f64| a / b;
+        let gain = (end.kinetic - start.kinetic) / start.kinetic;
         let drifts = [
-            relative((end.kinetic - start.kinetic).abs(), start.kinetic),
-            relative((end.momentum - start.momentum).norm_sq().sqrt(), start.momentum_scale),
-            relative((end.angular_momentum - start.angular_momentum).norm_sq().sqrt(), start.angular_momentum_scale),
+            if restitution < 1.0 { gain.max(0.0) } else { gain.abs() },
+            (end.momentum - start.momentum).norm_sq().sqrt() / start.momentum_scale,
+            (end.angular_momentum - start.angular_momentum).norm_sq().sqrt() / start.angular_momentum_scale,
         ];
         for (worst, drift) in worst.iter_mut().zip(drifts) {
             *worst = worst.max(drift);
         }
     }
-    println!("{impacts} impacts; worst drifts of energy, momentum, angular momentum: {worst:?}");
-    assert!(impacts > 250, "only {impacts} impacts in 300 rounds");
-    assert!(worst[0] < 1e-7 && worst[1] < 1e-12 && worst[2] < 1e-12, "worst drifts {worst:?}");
+    println!("{impacts} collide; worst drifts of energy, momentum, angular momentum: {worst:?}");
+    (impacts, worst)
+}
+
+// Bounds are about ten times what was measured: the energy is that of RK4 at 0.03 rad a substep, the momenta are roundings
+// of some hundred steps.
+
+#[test]
+fn random_elastic_collisions_conserve_and_never_overlap() {
+    let (impacts, worst) = fly_at_one_another::<f64>(1.0, 1e-9);
+    assert!(impacts > 250, "only {impacts} of 300 pairs collide");
+    assert!(worst[0] < 1.5e-7 && worst[1] < 2e-15 && worst[2] < 2e-12, "worst drifts {worst:?}");
+}
+
+#[test]
+fn random_lossy_collisions_never_gain_energy_or_overlap() {
+    let (impacts, worst) = fly_at_one_another::<f64>(0.5, 1e-9);
+    assert!(impacts > 250, "only {impacts} of 300 pairs collide");
+    assert!(worst[0] < 1.5e-7 && worst[1] < 1e-13 && worst[2] < 2e-12, "worst drifts {worst:?}");
+}
+
+#[test]
+fn random_collisions_in_f32_conserve_and_never_overlap() {
+    // Coordinates of bodies of a metre are good to some 1e-7 m.
+    for restitution in [1.0, 0.5] {
+        let (impacts, worst) = fly_at_one_another::<f32>(restitution, 2e-5);
+        assert!(impacts > 250, "only {impacts} of 300 pairs collide");
+        assert!(worst[0] < 2e-5 && worst[1] < 2e-6 && worst[2] < 2e-5, "worst drifts {worst:?}");
+    }
+}
+
+/// Faces that meet squarely, and boxes whose sides lie in one plane: the struck corners lie in planes beside the face.
+fn meet_squarely<T: Real>() {
+    for offset in [[0.0, 0.0], [0.01, 0.0], [0.0, 0.25], [0.01, 0.02]] {
+        for turn in [0.0, 0.3] {
+            let rotor = Rotor::from_axis_angle(Vector::new(1.0, 2.0, -0.5), turn).unwrap();
+            let mut setup = empty::<T>(1.0);
+            let place = |x: f64, y: f64, z: f64| Point::from(rotor.apply(Vector::new(x, y, z)));
+            let velocity = rotor.apply(Vector::new(0.0, 0.0, -1.0));
+            push(&mut setup, cuboid([1.0; 3]), place(0.0, 0.0, 0.0), rotor, Vector::default(), Bivector::default());
+            let above = place(offset[0], offset[1], 1.5);
+            push(&mut setup, cuboid([1.0; 3]), above, rotor, velocity, Bivector::default());
+            let mut world = World::new(setup);
+            let mut events = vec![];
+            for step in 1..=100 {
+                let at = f64::from(step) / 100.0;
+                world.advance_to(at, &mut events).unwrap_or_else(|e| panic!("offset {offset:?}, turn {turn}: {e}"));
+            }
+            assert!(!events.is_empty(), "offset {offset:?}, turn {turn}: no impact");
+            let face = rotor.apply(Vector::new(0.0, 0.0, 1.0));
+            for event in &events {
+                assert!((event.normal | face) > 0.999, "offset {offset:?}, turn {turn}: normal {:?}", event.normal);
+                assert!((event.time_s - 0.5).abs() < 1e-6, "offset {offset:?}, turn {turn}: at {} s", event.time_s);
+            }
+            if offset == [0.0, 0.0] {
+                // Equal masses, head-on and elastic: the velocities change hands.
+                let left = world.bodies().velocity(1, &world.inertias()[1]);
+                assert!(left.norm_sq().sqrt().to_f64() < 1e-5, "turn {turn}: still moving at {left:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn aligned_boxes_meet_face_to_face() {
+    meet_squarely::<f64>();
+    meet_squarely::<f32>();
+}
+
+#[test]
+fn touching_is_not_overlap_and_overlap_is_seen_whatever_the_alignment() {
+    for (height, overlaps) in [(1.0, false), (1.0 - 1e-12, false), (0.7, true), (0.0, true), (1.0 - 1e-6, true)] {
+        for shift in [0.0, 0.1] {
+            let mut setup = empty::<f64>(1.0);
+            push(
+                &mut setup,
+                cuboid([1.0; 3]),
+                Point::origin(),
+                Rotor::default(),
+                Vector::default(),
+                Bivector::default(),
+            );
+            let at = Point::new(shift, 0.0, height);
+            push(&mut setup, cuboid([1.0; 3]), at, Rotor::default(), Vector::default(), Bivector::default());
+            let found = World::new(setup).overlaps();
+            assert_eq!(!found.is_empty(), overlaps, "height {height}, shift {shift}: {found:?}");
+        }
+    }
 }
 
 #[test]
@@ -317,7 +419,7 @@ fn a_body_that_stays_in_contact_is_named() {
 fn scenes_far_from_the_origin_collide_alike() {
     let run = |shift: f64| {
         let mut random = Random(4);
-        let mut setup = empty(1.0);
+        let mut setup = empty::<f64>(1.0);
         let at = |x: f64| Point::new(shift + x, -2.0 * shift, shift);
         push(
             &mut setup,

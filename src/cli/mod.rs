@@ -6,6 +6,7 @@ pub mod mesh;
 mod run;
 
 use crate::io::files::WriteError;
+use crate::scene::description::Scalar;
 use crate::scene::{self, Rejected, plan, stderr_wants_colour};
 use clap::{Parser, Subcommand};
 use std::io::Write;
@@ -117,7 +118,8 @@ pub fn main() -> ExitCode {
     match dispatch(arguments.command) {
         Ok(code) => ExitCode::from(code),
         Err(failure) => {
-            eprintln!("{}", failure.message);
+            // Where standard error is closed, the exit code still says what happened.
+            let _ = writeln!(std::io::stderr(), "{}", failure.message);
             ExitCode::from(failure.code)
         }
     }
@@ -164,8 +166,11 @@ fn print_plan(path: &Path, sets: &[String], json: bool) -> Result<(), Failure> {
 
 fn check(path: &Path, sets: &[String]) -> Result<(), Failure> {
     let (scene, source) = scene::load(path, sets).map_err(Failure::rejected)?;
-    scene::build::build::<f64>(&scene, &source)
-        .map_err(|diagnostics| Failure::rejected(Rejected { source, diagnostics }))?;
+    let built = match scene.solver.scalar {
+        Scalar::F64 => scene::build::build::<f64>(&scene, &source).map(|_| ()),
+        Scalar::F32 => scene::build::build::<f32>(&scene, &source).map(|_| ()),
+    };
+    built.map_err(|diagnostics| Failure::rejected(Rejected { source, diagnostics }))?;
     print(&format!("{}: {} bodies, nothing wrong", path.display(), scene.body.len()))
 }
 

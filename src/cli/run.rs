@@ -7,7 +7,7 @@ use crate::io::html::{self, Playback};
 use crate::io::summary::{self, Settings, Summary};
 use crate::io::tables;
 use crate::rigid::Bodies;
-use crate::rigid::rotor::MAX_TURN_RAD;
+use crate::rigid::rotor::{AdvanceError, MAX_TURN_RAD};
 use crate::scene::build::{Built, Look, build};
 use crate::scene::description::Scalar;
 use crate::scene::{Rejected, Scene, SceneSource, load, plan};
@@ -62,7 +62,7 @@ fn run_in<T: Real>(options: &Options, scene: &Scene, source: SceneSource) -> Res
     let summary = summarise(options, scene, &source, &world, &record, steps, wall_s, failure.clone());
     write_files(&out, &names, &looks, &record, &summary)?;
     if !options.quiet {
-        print!("{}", table(&summary, &out));
+        super::print(&table(&summary, &out))?;
     }
     match failure {
         Some(reason) => Err(Failure::run(format!("{reason}\nwhat was recorded until then is in {}", out.display()))),
@@ -124,7 +124,18 @@ fn explain(error: &SimulationError, names: &[String]) -> String {
              resting contact is not modelled; end the run before (`duration_s`), or raise `contact.restitution`",
             names[*a], names[*b]
         ),
-        SimulationError::Advance(error) => error.to_string(),
+        SimulationError::OutOfRange { body_idx, time_s } => format!(
+            "the motion of body `{}` left the range of the numbers at {time_s:.6} s: a force or drag is too stiff for the \
+             step, or a velocity too large; take a smaller `dt_s`",
+            names[*body_idx]
+        ),
+        SimulationError::Advance(AdvanceError::Spin { body_idx, time_s, omega_rad_s, dt_s }) => format!(
+            "body `{}` spins at {omega_rad_s:e} rad/s at {time_s:.6} s, too fast for a step of {dt_s} s; take a smaller `dt_s`",
+            names[*body_idx]
+        ),
+        SimulationError::Advance(AdvanceError::Orientation { body_idx, time_s, .. }) => {
+            format!("the orientation of body `{}` is lost at {time_s:.6} s; take a smaller `dt_s`", names[*body_idx])
+        }
     }
 }
 
@@ -200,6 +211,13 @@ fn write_files(
     record: &Record,
     summary: &Summary,
 ) -> Result<(), WriteError> {
+    // The summary of an earlier run must not stand beside the tables of this one, if this one is killed in between.
+    match std::fs::remove_file(out.join("summary.json")) {
+        Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
+            return Err(WriteError { path: out.join("summary.json"), source });
+        }
+        _ => {}
+    }
     write_whole(&out.join("trajectory.csv"), |file| tables::trajectory(file, names, &record.frames))?;
     write_whole(&out.join("energy.csv"), |file| tables::energy(file, &record.energies))?;
     write_whole(&out.join("events.csv"), |file| tables::events(file, names, &record.events))?;

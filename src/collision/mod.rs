@@ -12,7 +12,7 @@ mod time_of_impact;
 
 pub use bounds::balls_overlap;
 pub use contact::Contact;
-pub use narrow_phase::{Collider, NarrowPhase, Reach};
+pub use narrow_phase::{Collider, NarrowPhase, Reach, Scenery};
 pub use polyhedron::{Polyhedron, PolyhedronError};
 pub use response::{Impulse, resolve};
 pub use time_of_impact::{Bracket, first_overlap};

@@ -13,7 +13,7 @@ use crate::algebra::Real;
 use crate::algebra::cga::{Infinity, Line, Motor, Plane, Point};
 use crate::algebra::g3::Vector;
 use crate::geometry::closest_point_on_line;
-use crate::rigid::Bodies;
+use crate::rigid::{Bodies, Inertia};
 use alloc::vec::Vec;
 
 /// Edges whose directions differ by less than this many epsilons (as the sine of their angle) are parallel: their common
@@ -57,6 +57,29 @@ fn margin<T: Real>(reach: Reach, body: &Polyhedron<T>) -> T {
     }
 }
 
+/// All bodies as collision tests see them. Every list has one entry a body.
+#[derive(Clone, Copy, Debug)]
+pub struct Scenery<'a, T: Real> {
+    /// Their states.
+    pub bodies: &'a Bodies<T>,
+    /// Their masses and inertias: how fast a point of a body moves decides which face it came through.
+    pub inertias: &'a [Inertia<T>],
+    /// Their shapes.
+    pub colliders: &'a [Collider<T>],
+}
+
+impl<T: Real> Scenery<'_, T> {
+    /// The depth up to which two bodies only touch, m: what counts as simultaneous for the larger of them.
+    #[must_use]
+    pub fn slack(&self, a: usize, b: usize) -> T {
+        let of = |index: usize| match &self.colliders[index] {
+            Collider::Convex(body) => margin(Reach::Simultaneous, body),
+            _ => T::zero(),
+        };
+        of(a).max(of(b))
+    }
+}
+
 /// Detects contacts; holds scratch storage.
 #[derive(Clone, Debug, Default)]
 pub struct NarrowPhase<T> {
@@ -67,58 +90,60 @@ pub struct NarrowPhase<T> {
 }
 
 impl<T: Real> NarrowPhase<T> {
-    /// Appends the contacts of a pair; returns whether there are any.
-    pub fn contacts(
-        &mut self,
-        bodies: &Bodies<T>,
-        colliders: &[Collider<T>],
-        a: usize,
-        b: usize,
-        reach: Reach,
-        found: &mut Vec<Contact<T>>,
-    ) -> bool {
-        let before = found.len();
-        match (&colliders[a], &colliders[b]) {
+    /// Appends the contacts of a pair, a below b.
+    pub fn contacts(&mut self, all: Scenery<'_, T>, (a, b): (usize, usize), reach: Reach, found: &mut Vec<Contact<T>>) {
+        match (&all.colliders[a], &all.colliders[b]) {
             (Collider::Convex(first), Collider::Convex(second)) => {
-                self.convex_pair(bodies, (a, first), (b, second), reach, found)
+                let frames = Frame::both(all, (a, first), (b, second));
+                self.convex_pair(&frames, reach, found);
             }
             (Collider::Convex(body), Collider::HalfSpace(normal)) => {
-                half_space(bodies, (a, body), (b, *normal), reach, found)
+                half_space(all.bodies, (a, body), (b, *normal), reach, found);
             }
             (Collider::HalfSpace(normal), Collider::Convex(body)) => {
-                half_space(bodies, (b, body), (a, *normal), reach, found)
+                half_space(all.bodies, (b, body), (a, *normal), reach, found);
             }
             _ => {}
         }
-        found.len() > before
     }
 
-    fn convex_pair(
-        &mut self,
-        bodies: &Bodies<T>,
-        (a, first): (usize, &Polyhedron<T>),
-        (b, second): (usize, &Polyhedron<T>),
-        reach: Reach,
-        found: &mut Vec<Contact<T>>,
-    ) {
-        let pose = bodies.relative_pose(a, b);
-        if !balls_overlap(first.bound, pose.apply(second.bound)) {
+    /// How deep a pair overlaps that is to be apart, m; `None` where it does not, or only touches: contacts that are all
+    /// shallower than the share of the size that counts as simultaneous, between edges or on either side of a face.
+    pub fn overlap(&mut self, all: Scenery<'_, T>, (a, b): (usize, usize)) -> Option<T> {
+        let mut found = Vec::new();
+        self.contacts(all, (a, b), Reach::Overlapping, &mut found);
+        let depth = found.iter().map(|contact| -contact.separation).reduce(T::max)?;
+        let slack = all.slack(a, b);
+        if depth > slack {
+            return Some(depth);
+        }
+        let (Collider::Convex(first), Collider::Convex(second)) = (&all.colliders[a], &all.colliders[b]) else {
+            return None;
+        };
+        let frames = Frame::both(all, (a, first), (b, second));
+        let by_edges = !self.met.is_empty();
+        let touching = by_edges || frames.iter().any(|frame| frame.separated_by_face(slack));
+        (!touching).then_some(depth)
+    }
+
+    fn convex_pair(&mut self, frames: &[Frame<'_, T>; 2], reach: Reach, found: &mut Vec<Contact<T>>) {
+        self.met.clear();
+        let [in_first, in_second] = frames;
+        if !balls_overlap(in_first.host.1.bound, in_first.pose.apply(in_first.guest.1.bound)) {
             return;
         }
         let before = found.len();
-        let in_first = Frame { bodies, host: (a, first), guest: (b, second), pose };
-        self.move_vertices(&in_first);
-        in_first.vertices_within(&self.moved, reach, found);
-        let in_second = Frame { bodies, host: (b, second), guest: (a, first), pose: pose.rev() };
-        self.move_vertices(&in_second);
-        in_second.vertices_within(&self.moved, reach, found);
+        for frame in frames {
+            self.move_vertices(frame);
+            frame.vertices_within(&self.moved, reach, found);
+        }
         if found[before..].iter().any(|contact| contact.separation <= T::zero()) {
             return;
         }
-        self.met.clear();
-        in_second.edges_through(&self.moved, &mut self.met, found);
-        self.move_vertices(&in_first);
-        in_first.edges_through(&self.moved, &mut self.met, found);
+        for frame in [in_second, in_first] {
+            self.move_vertices(frame);
+            frame.edges_through(&self.moved, &mut self.met, found);
+        }
     }
 
     fn move_vertices(&mut self, frame: &Frame<'_, T>) {
@@ -129,20 +154,26 @@ impl<T: Real> NarrowPhase<T> {
 
 /// A pair of bodies seen from the frame of one of them, the host.
 struct Frame<'a, T: Real> {
-    bodies: &'a Bodies<T>,
+    all: Scenery<'a, T>,
     host: (usize, &'a Polyhedron<T>),
     guest: (usize, &'a Polyhedron<T>),
     /// From the guest's frame to the host's.
     pose: Motor<T>,
 }
 
-impl<T: Real> Frame<'_, T> {
+impl<'a, T: Real> Frame<'a, T> {
+    /// The pair as each of them sees it.
+    fn both(all: Scenery<'a, T>, first: (usize, &'a Polyhedron<T>), second: (usize, &'a Polyhedron<T>)) -> [Self; 2] {
+        let pose = all.bodies.relative_pose(first.0, second.0);
+        [Frame { all, host: first, guest: second, pose }, Frame { all, host: second, guest: first, pose: pose.rev() }]
+    }
+
     /// A contact given in the host's frame, the normal pointing out of the host. `a` is always the lower index.
     fn contact(&self, point: Point<T>, outward: Vector<T>, separation: T) -> Contact<T> {
         let (host, guest) = (self.host.0, self.guest.0);
-        let rotor = self.bodies.rotor[host];
+        let rotor = self.all.bodies.rotor[host];
         let arm_host = rotor.apply(point.position());
-        let between = self.bodies.position[host].displacement_to(self.bodies.position[guest]).map(T::from_f64);
+        let between = self.all.bodies.position[host].displacement_to(self.all.bodies.position[guest]).map(T::from_f64);
         let arm_guest = arm_host - between;
         let normal = rotor.apply(outward);
         if host < guest {
@@ -154,11 +185,32 @@ impl<T: Real> Frame<'_, T> {
 
     fn vertices_within(&self, moved: &[Point<T>], reach: Reach, found: &mut Vec<Contact<T>>) {
         let margin = margin(reach, self.guest.1);
-        for vertex in moved.iter().filter(|vertex| !self.host.1.excludes(**vertex, margin)) {
-            if let Some((height, facet)) = self.host.1.height(*vertex) {
-                found.push(self.contact(*vertex, facet.plane.normal(), height));
-            }
-        }
+        let inside = moved.iter().filter(|vertex| !self.host.1.excludes(**vertex, margin));
+        found.extend(inside.filter_map(|vertex| self.vertex_contact(*vertex)));
+    }
+
+    /// The contact of a vertex with the nearest face. Where several are equally near, to within what counts as
+    /// simultaneous, with the one that it came through: of their planes that it is crossing inwards, the one it crossed
+    /// last, `-height / speed` ago. So the corners of aligned boxes, which slide in the planes beside the struck face at
+    /// height 0 by rounding or exactly, get the normal of that face.
+    fn vertex_contact(&self, vertex: Point<T>) -> Option<Contact<T>> {
+        let (highest, nearest) = self.host.1.height(vertex)?;
+        let near = highest - margin(Reach::Simultaneous, self.host.1).max(margin(Reach::Simultaneous, self.guest.1));
+        let crossed = self.host.1.facets.iter().filter_map(|facet| {
+            let height = facet.height(vertex);
+            let contact = (height >= near).then(|| self.contact(vertex, facet.plane.normal(), height))?;
+            let speed = contact.approach_speed(self.all.bodies, self.all.inertias);
+            let inwards = speed > contact.speed_rounding(self.all.bodies, self.all.inertias);
+            inwards.then(|| (-height / speed, contact))
+        });
+        let last = crossed.reduce(|last, next| if next.0 < last.0 { next } else { last });
+        Some(last.map_or_else(|| self.contact(vertex, nearest.plane.normal(), highest), |(_, contact)| contact))
+    }
+
+    /// Do all vertices of the guest lie before the plane of one of the host's facets, to within `slack`?
+    fn separated_by_face(&self, slack: T) -> bool {
+        let moved: Vec<Point<T>> = self.guest.1.vertices.iter().map(|vertex| self.pose.apply(*vertex)).collect();
+        self.host.1.facets.iter().any(|facet| moved.iter().all(|vertex| facet.height(*vertex) >= -slack))
     }
 
     fn edges_through(&self, moved: &[Point<T>], met: &mut Vec<[usize; 2]>, found: &mut Vec<Contact<T>>) {

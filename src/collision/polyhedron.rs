@@ -3,6 +3,7 @@
 use crate::algebra::Real;
 use crate::algebra::cga::{Point, Sphere};
 use crate::algebra::g3::Vector;
+use crate::geometry::mesh::Mesh;
 use crate::geometry::{Degenerate, Facet};
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
@@ -39,13 +40,13 @@ pub struct Polyhedron<T = f64> {
 }
 
 impl<T: Real> Polyhedron<T> {
-    /// From a convex closed mesh in the body frame, whose facets are counter-clockwise seen from outside, and a ball
-    /// that holds it.
+    /// From a convex closed mesh in the body frame, and a ball that holds it.
     ///
     /// # Errors
     /// A facet without area.
-    pub fn new(vertices: &[Point<f64>], triangles: &[[u32; 3]], bound: Sphere<f64>) -> Result<Self, PolyhedronError> {
-        let vertices: Vec<Point<T>> = vertices.iter().map(|vertex| vertex.map(T::from_f64)).collect();
+    pub fn new(mesh: &Mesh, bound: Sphere<f64>) -> Result<Self, PolyhedronError> {
+        let (triangles, vertices) = (&mesh.triangles, mesh.vertices.iter());
+        let vertices: Vec<Point<T>> = vertices.map(|vertex| vertex.map(T::from_f64)).collect();
         let corners = |triangle: &[u32; 3]| triangle.map(|index| vertices[index as usize]);
         let facets = triangles.iter().enumerate().map(|(facet, triangle)| {
             Facet::new(corners(triangle)).map_err(|source| PolyhedronError::Facet { facet, source })

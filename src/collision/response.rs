@@ -9,13 +9,17 @@
 //!
 //! Several contacts at once, the corners of a box that lands flat, are struck together: the approach speeds s become
 //! `s+ <= -e s`, with `j >= 0` and one of the two an equality at each contact. This changes the energy by
-//! `-(1 - e) sum(j s) / 2`, never upwards, and treats equal corners alike; impulses one after the other would not.
+//! `-(1 - e) sum(j s) / 2`, never upwards, and treats equal corners alike; impulses one after the other would not. With
+//! the matrix K of the formula's denominators that is the problem `min j K j / 2 - (1 + e) s j, j >= 0`, solved exactly by
+//! an active set (Lawson and Hanson 1974, chapter 23).
 
 use super::Contact;
 use crate::algebra::Real;
 use crate::algebra::g3::{Bivector, Vector};
 use crate::rigid::{Bodies, Inertia};
+use alloc::vec;
 use alloc::vec::Vec;
+use nalgebra::{DMatrix, DVector};
 
 /// An impulse that was applied.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,17 +30,9 @@ pub struct Impulse<T> {
     pub magnitude: T,
 }
 
-/// Approach speeds below this many epsilons of the speeds at the contact are rounding: such a contact is not struck.
-/// A point's velocity is a sum of six products, each off by a few roundings of terms no larger than the speeds.
-const APPROACH_EPSILONS: f64 = 16.0;
-
 /// Impulses at some contacts can make others approach; those are struck in a further pass. What this many passes leave
 /// meets again at once, as an impact of its own.
 const MAX_PASSES: usize = 16;
-
-/// Sweeps of projected Gauss-Seidel over the contacts of one pass. Each divides what is left by a factor that depends on
-/// how the contacts share the load, about 2 for the four corners of a face; 200 reach rounding there with room to spare.
-const MAX_SWEEPS: usize = 200;
 
 /// Applies impulses until no contact approaches. Returns those that were not zero.
 pub fn resolve<T: Real>(
@@ -45,88 +41,137 @@ pub fn resolve<T: Real>(
     inertias: &[Inertia<T>],
     restitution: T,
 ) -> Vec<Impulse<T>> {
-    let mut total: Vec<T> = contacts.iter().map(|_| T::zero()).collect();
+    let mut total = vec![T::zero(); contacts.len()];
     for _ in 0..MAX_PASSES {
-        let struck: Vec<Struck<T>> = contacts
-            .iter()
-            .enumerate()
-            .map(|(index, contact)| Struck {
-                index,
-                speed: contact.approach_speed(bodies, inertias),
-                rounding: rounding(contact, bodies, inertias),
-                compliance: compliance(contact, bodies, inertias),
-            })
-            .filter(|struck| struck.speed > struck.rounding)
-            .collect();
+        let approaching = |index: &usize| contacts[*index].approaches(bodies, inertias);
+        let struck: Vec<usize> = (0..contacts.len()).filter(approaching).collect();
         if struck.is_empty() {
             break;
         }
-        strike_together(&struck, contacts, bodies, inertias, restitution, &mut total);
+        let chosen: Vec<Contact<T>> = struck.iter().map(|index| contacts[*index]).collect();
+        let speeds: Vec<T> = chosen.iter().map(|contact| contact.approach_speed(bodies, inertias)).collect();
+        let magnitudes = strike_together(&chosen, &speeds, bodies, inertias, restitution);
+        for ((index, contact), magnitude) in struck.iter().zip(&chosen).zip(magnitudes) {
+            apply(contact, contact.normal * magnitude, bodies);
+            total[*index] = total[*index] + magnitude;
+        }
     }
     let impulses = contacts.iter().zip(total).map(|(contact, magnitude)| Impulse { contact: *contact, magnitude });
     impulses.filter(|impulse| impulse.magnitude > T::zero()).collect()
 }
 
-/// A contact that approaches.
-struct Struck<T> {
-    index: usize,
-    /// Before the impulses of the pass.
-    speed: T,
-    rounding: T,
-    compliance: T,
-}
-
-/// Projected Gauss-Seidel on `j >= 0`, `s+ + e s <= 0`, complementary. One contact is done in one sweep, exactly.
+/// The impulses of contacts that approach.
 fn strike_together<T: Real>(
-    struck: &[Struck<T>],
     contacts: &[Contact<T>],
-    bodies: &mut Bodies<T>,
+    speeds: &[T],
+    bodies: &Bodies<T>,
     inertias: &[Inertia<T>],
     restitution: T,
-    total: &mut [T],
-) {
-    let mut magnitudes: Vec<T> = struck.iter().map(|_| T::zero()).collect();
-    for sweep in 0..MAX_SWEEPS {
-        let mut settled = true;
-        for (one, magnitude) in struck.iter().zip(&mut magnitudes) {
-            let contact = &contacts[one.index];
-            let speed =
-                if sweep == 0 && struck.len() == 1 { one.speed } else { contact.approach_speed(bodies, inertias) };
-            let excess = speed + restitution * one.speed;
-            let next = (*magnitude + excess / one.compliance).max(T::zero());
-            settled &= (next - *magnitude).abs() * one.compliance <= one.rounding;
-            apply(contact, contact.normal * (next - *magnitude), bodies);
-            *magnitude = next;
-        }
-        if settled || struck.len() == 1 {
-            break;
-        }
+) -> Vec<T> {
+    let responses: Vec<[Side<T>; 2]> = contacts.iter().map(|contact| Side::both(contact, bodies, inertias)).collect();
+    if let ([response], [speed]) = (&responses[..], speeds) {
+        return vec![(T::one() + restitution) * *speed / coupling(response, response)];
     }
-    for (one, magnitude) in struck.iter().zip(magnitudes) {
-        total[one.index] = total[one.index] + magnitude;
+    let n = contacts.len();
+    let matrix = DMatrix::from_fn(n, n, |row, column| coupling(&responses[row], &responses[column]).to_f64());
+    let wanted = DVector::from_fn(n, |row, _| ((T::one() + restitution) * speeds[row]).to_f64());
+    let rounding = DVector::from_fn(n, |row, _| contacts[row].speed_rounding(bodies, inertias).to_f64());
+    least_impulses(&matrix, &wanted, &rounding, T::EPSILON.to_f64()).into_iter().map(T::from_f64).collect()
+}
+
+/// What a unit impulse at a contact does to one of its bodies.
+struct Side<T> {
+    body_idx: usize,
+    /// The direction of the impulse on this body.
+    push: Vector<T>,
+    arm: Vector<T>,
+    inv_mass: T,
+    /// `I^-1 (r ^ n)`.
+    turn: Bivector<T>,
+}
+
+impl<T: Real> Side<T> {
+    fn both(contact: &Contact<T>, bodies: &Bodies<T>, inertias: &[Inertia<T>]) -> [Self; 2] {
+        let side = |body_idx: usize, arm: Vector<T>, push: Vector<T>| {
+            let (inertia, rotor) = (&inertias[body_idx], bodies.rotor[body_idx]);
+            let turn = rotor.apply(inertia.velocity_of(rotor.rev().apply(arm ^ push)));
+            Self { body_idx, push, arm, inv_mass: inertia.inv_mass, turn }
+        };
+        [side(contact.a, contact.arm_a, -contact.normal), side(contact.b, contact.arm_b, contact.normal)]
     }
 }
 
-/// The rounding of an approach speed.
-fn rounding<T: Real>(contact: &Contact<T>, bodies: &Bodies<T>, inertias: &[Inertia<T>]) -> T {
-    let speed = |body_idx: usize, arm: Vector<T>| {
-        let inertia = &inertias[body_idx];
-        let spin = bodies.omega_body(body_idx, inertia).norm_sq() * arm.norm_sq();
-        bodies.velocity(body_idx, inertia).norm_sq().sqrt() + spin.sqrt()
-    };
-    T::from_f64(APPROACH_EPSILONS) * T::EPSILON * (speed(contact.a, contact.arm_a) + speed(contact.b, contact.arm_b))
+/// How much a unit impulse at one contact slows the approach at another, 1/kg.
+fn coupling<T: Real>(at: &[Side<T>; 2], from: &[Side<T>; 2]) -> T {
+    let mut sum = T::zero();
+    for here in at {
+        for there in from.iter().filter(|there| there.body_idx == here.body_idx) {
+            let velocity = there.push * there.inv_mass + (here.arm | there.turn);
+            sum = sum + (here.push | velocity);
+        }
+    }
+    sum
 }
 
-/// The change of the relative normal velocity per unit impulse, 1/kg. Positive unless both bodies are immovable.
-fn compliance<T: Real>(contact: &Contact<T>, bodies: &Bodies<T>, inertias: &[Inertia<T>]) -> T {
-    let normal = contact.normal;
-    let of = |body_idx: usize, arm: Vector<T>| {
-        let (inertia, rotor) = (&inertias[body_idx], bodies.rotor[body_idx]);
-        let moment_body: Bivector<T> = rotor.rev().apply(arm ^ normal);
-        let turn = rotor.apply(inertia.velocity_of(moment_body));
-        inertia.inv_mass + (normal | (arm | turn))
-    };
-    of(contact.a, contact.arm_a) + of(contact.b, contact.arm_b)
+/// `j >= 0` with `K j >= wanted`, an equality wherever `j > 0`: Lawson and Hanson's active set on the normal equations.
+/// The active contacts are independent, so there are at most six a moving body, however many corners a face has.
+///
+/// A contact counts as served when it is so to within rounding: that of its speed, and that of the sum of the others'
+/// effects. The set grows by one independent contact at a time and no set comes twice, so the search ends; the cap is
+/// against cycling by rounding, and what it leaves is struck again.
+fn least_impulses(matrix: &DMatrix<f64>, wanted: &DVector<f64>, rounding: &DVector<f64>, epsilon: f64) -> Vec<f64> {
+    let n = wanted.len();
+    let mut impulses = DVector::zeros(n);
+    let (mut active, mut dependent): (Vec<usize>, Vec<usize>) = (vec![], vec![]);
+    for _ in 0..3 * n + 3 {
+        let effect = matrix * &impulses;
+        let noise = |i: usize| {
+            rounding[i] + epsilon * matrix.row(i).iter().zip(&impulses).map(|(k, j)| (k * j).abs()).sum::<f64>()
+        };
+        let lacking = |i: &usize| wanted[*i] - effect[*i] - noise(*i);
+        let open = (0..n).filter(|i| !active.contains(i) && !dependent.contains(i) && lacking(i) > 0.0);
+        let Some(next) = open.max_by(|x, y| lacking(x).total_cmp(&lacking(y))) else { break };
+        active.push(next);
+        if !equalise(matrix, wanted, epsilon, &mut active, &mut impulses) {
+            active.retain(|index| *index != next);
+            dependent.push(next);
+        }
+    }
+    impulses.iter().copied().collect()
+}
+
+/// Makes the active contacts equalities, dropping those whose impulse would become negative on the way. False where the
+/// newest depends on the others.
+fn equalise(
+    matrix: &DMatrix<f64>,
+    wanted: &DVector<f64>,
+    epsilon: f64,
+    active: &mut Vec<usize>,
+    impulses: &mut DVector<f64>,
+) -> bool {
+    while !active.is_empty() {
+        let size = active.len();
+        let block = DMatrix::from_fn(size, size, |row, column| matrix[(active[row], active[column])]);
+        let Some(factor) = block.cholesky() else { return false };
+        // A pivot that is rounding of the diagonal that it came from is a dependence that the factor did not notice.
+        let pivot = |i: usize| factor.l_dirty()[(i, i)].powi(2) <= 4.0 * epsilon * matrix[(active[i], active[i])];
+        if pivot(size - 1) {
+            return false;
+        }
+        let solution = factor.solve(&DVector::from_fn(size, |row, _| wanted[active[row]]));
+        let shrinking = (0..size).filter(|i| solution[*i] <= 0.0);
+        let share = |i: usize| impulses[active[i]] / (impulses[active[i]] - solution[i]);
+        let step = shrinking.map(share).fold(1.0, f64::min);
+        for (i, index) in active.iter().enumerate() {
+            impulses[*index] += step * (solution[i] - impulses[*index]);
+        }
+        if step >= 1.0 {
+            return true;
+        }
+        active.retain(|index| impulses[*index] > 0.0);
+        impulses.iter_mut().for_each(|j| *j = j.max(0.0));
+    }
+    true
 }
 
 fn apply<T: Real>(contact: &Contact<T>, impulse: Vector<T>, bodies: &mut Bodies<T>) {

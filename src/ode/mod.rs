@@ -15,6 +15,6 @@ pub trait State<T> {
     /// Becomes a copy of another state of the same size, without allocation.
     fn assign(&mut self, other: &Self);
 
-    /// `y + h k`.
-    fn add_scaled(&mut self, h: T, rate: &Self::Rate);
+    /// `y + sum h_i k_i`. The sum is formed before it is added, so that a large state is rounded once.
+    fn add_scaled(&mut self, terms: &[(T, &Self::Rate)]);
 }

@@ -27,11 +27,11 @@ impl<T: Real, S: State<T>> Rk4<S, T> {
         for (index, (step, time)) in [(half, middle), (half, middle), (h_s, t_s + h_s.to_f64())].into_iter().enumerate()
         {
             self.stage.assign(state);
-            self.stage.add_scaled(step, &self.rates[index]);
+            self.stage.add_scaled(&[(step, &self.rates[index])]);
             rhs(time, &self.stage, &mut self.rates[index + 1]);
         }
-        for (rate, weight) in self.rates.iter().zip([T::ratio(1, 6), T::ratio(1, 3), T::ratio(1, 3), T::ratio(1, 6)]) {
-            state.add_scaled(h_s * weight, rate);
-        }
+        let [k1, k2, k3, k4] = &self.rates;
+        let (sixth, third) = (h_s * T::ratio(1, 6), h_s * T::ratio(1, 3));
+        state.add_scaled(&[(sixth, k1), (third, k2), (third, k3), (sixth, k4)]);
     }
 }

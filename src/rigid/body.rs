@@ -191,22 +191,29 @@ impl<T: Real> State<T> for Bodies<T> {
         self.angular_momentum.clone_from(&other.angular_momentum);
     }
 
-    fn add_scaled(&mut self, h: T, rate: &Rates<T>) {
-        for (position, velocity) in self.position.iter_mut().zip(&rate.position) {
-            *position = position.moved((*velocity * h).map(Real::to_f64));
-        }
-        for (rotor, change) in self.rotor.iter_mut().zip(&rate.rotor) {
+    fn add_scaled(&mut self, terms: &[(T, &Rates<T>)]) {
+        for body_idx in 0..self.len() {
+            let moved = sum(terms, |rates| rates.position[body_idx]);
+            self.position[body_idx] = self.position[body_idx].moved(moved.map(Real::to_f64));
             // A stage may leave the unit rotors; `renormalise` brings the step back.
-            rotor.s = rotor.s + change.s * h;
-            rotor.e23 = rotor.e23 + change.e23 * h;
-            rotor.e31 = rotor.e31 + change.e31 * h;
-            rotor.e12 = rotor.e12 + change.e12 * h;
-        }
-        for (momentum, force) in self.momentum.iter_mut().zip(&rate.momentum) {
-            *momentum += *force * h;
-        }
-        for (angular_momentum, torque) in self.angular_momentum.iter_mut().zip(&rate.angular_momentum) {
-            *angular_momentum += *torque * h;
+            let turned = sum(terms, |rates| rates.rotor[body_idx]);
+            let rotor = &mut self.rotor[body_idx];
+            rotor.s = rotor.s + turned.s;
+            rotor.e23 = rotor.e23 + turned.e23;
+            rotor.e31 = rotor.e31 + turned.e31;
+            rotor.e12 = rotor.e12 + turned.e12;
+            self.momentum[body_idx] += sum(terms, |rates| rates.momentum[body_idx]);
+            self.angular_momentum[body_idx] += sum(terms, |rates| rates.angular_momentum[body_idx]);
         }
     }
+}
+
+/// `sum h_i k_i` of one part of the rates.
+#[inline]
+fn sum<T, K>(terms: &[(T, &Rates<T>)], part: impl Fn(&Rates<T>) -> K) -> K
+where
+    T: Real,
+    K: Default + core::ops::Add<Output = K> + core::ops::Mul<T, Output = K>,
+{
+    terms.iter().fold(K::default(), |sum, (h, rates)| sum + part(rates) * *h)
 }

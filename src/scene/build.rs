@@ -63,19 +63,15 @@ pub fn build<T: Real>(scene: &Scene, source: &SceneSource) -> Result<Built<T>, V
 }
 
 fn overlaps<T: Real>(scene: &Scene, setup: &Setup<T>) -> Vec<Diagnostic> {
-    let mut world = World::new(setup.clone());
-    let mut pairs: Vec<(usize, usize, f64)> =
-        world.overlaps().iter().map(|contact| (contact.a, contact.b, -contact.separation.to_f64())).collect();
-    pairs.sort_by(|x, y| (x.0, x.1).cmp(&(y.0, y.1)).then(y.2.total_cmp(&x.2)));
-    pairs.dedup_by_key(|pair| (pair.0, pair.1));
+    let overlaps = World::new(setup.clone()).overlaps();
     let names = |index: usize| scene.body[index].name.get_ref();
-    let report = |(a, b, depth): (usize, usize, f64)| {
+    let report = |(a, b, depth): (usize, usize, T)| {
         Diagnostic::new(format!("bodies `{}` and `{}` overlap at the start", names(a), names(b)))
             .at(scene.body[b].name.span())
-            .label(format!("{depth:.3e} m deep"))
+            .label(format!("{:.3e} m deep", depth.to_f64()))
             .help("move one of them by `position_m`, or turn it, until they are apart")
     };
-    pairs.into_iter().map(report).collect()
+    overlaps.into_iter().map(report).collect()
 }
 
 fn build_body<T: Real>(body: &Body, source: &SceneSource, setup: &mut Setup<T>) -> Found<Look> {
@@ -99,7 +95,7 @@ fn build_body<T: Real>(body: &Body, source: &SceneSource, setup: &mut Setup<T>) 
     let rotor = orientation(body)?;
     let collider = match &solid {
         Some(Solid::Mesh { mesh, bound, span, .. }) => {
-            let polyhedron = Polyhedron::new(&mesh.vertices, &mesh.triangles, *bound);
+            let polyhedron = Polyhedron::new(mesh, *bound);
             let failed = |error: crate::collision::PolyhedronError| {
                 Diagnostic::new(format!("the shape cannot collide: {error}")).at(span.clone())
             };

@@ -2,9 +2,10 @@
 
 use super::{Event, EventKind};
 use crate::algebra::Real;
-use crate::collision::{self, Collider, Contact, NarrowPhase, Reach};
+use crate::collision::{self, Collider, Contact, NarrowPhase, Reach, Scenery};
 use crate::rigid::rotor::{AdvanceError, Integrator};
 use crate::rigid::{Bodies, Forces, Inertia, Totals, totals};
+use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use thiserror::Error;
 
@@ -12,9 +13,10 @@ use thiserror::Error;
 /// `v dt 1e-11`, around the rounding of f64 coordinates; a coarser one would show in the energy, a finer one nowhere.
 const IMPACT_WIDTH: f64 = 1e-11;
 
-/// More impacts than this within one step are a sequence that does not end: each takes a fixed share of what is left
-/// of the sequence's time, at a restitution of 0.98 the thousandth all but 2e-9 of it.
-const MAX_IMPACTS_PER_STEP: usize = 1000;
+/// Bodies stay in contact when this many impacts of theirs in a row came without their having got apart in between, by
+/// more than what counts as touching: `speed * time since the last < slack`. Such bounces are made of rounding. One more
+/// than a few can be chance; a sequence that goes on is the end of all sequences with a restitution below 1.
+const PERSISTING_IMPACTS: usize = 64;
 
 /// Why a run ends early.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -22,6 +24,14 @@ pub enum SimulationError {
     /// The motion cannot be continued.
     #[error(transparent)]
     Advance(#[from] AdvanceError),
+    /// A momentum or position left the range of the numbers.
+    #[error("the motion of body {body_idx} left the range of the numbers at {time_s} s")]
+    OutOfRange {
+        /// Which body.
+        body_idx: usize,
+        /// When.
+        time_s: f64,
+    },
     /// Bounces without end. Resting contact is not modelled.
     #[error("bodies {a} and {b} stay in contact from {time_s} s on")]
     StaysInContact {
@@ -59,6 +69,8 @@ pub struct World<T: Real> {
     /// Pairs that could collide: both have a shape, and one of them moves.
     pairs: Vec<(usize, usize)>,
     contacts: Vec<Contact<T>>,
+    /// For each pair: when it last struck, and how many times in a row without getting apart in between.
+    impacts: BTreeMap<(usize, usize), (f64, usize)>,
     time_s: f64,
     substeps: u64,
 }
@@ -78,6 +90,7 @@ impl<T: Real> World<T> {
             narrow_phase: NarrowPhase::default(),
             pairs,
             contacts: Vec::new(),
+            impacts: BTreeMap::new(),
             time_s: 0.0,
             substeps: 0,
             setup,
@@ -114,20 +127,34 @@ impl<T: Real> World<T> {
         totals(&self.setup.bodies, &self.setup.inertias, self.setup.forces.gravity)
     }
 
-    /// The contacts of the state as it is: for a scene at its start, there must be none.
-    pub fn overlaps(&mut self) -> &[Contact<T>] {
-        self.trial.clone_from(&self.setup.bodies);
-        self.detect(Reach::Overlapping);
-        &self.contacts
+    /// The pairs that overlap in the state as it is, and how deep, m: for a scene at its start, there must be none.
+    pub fn overlaps(&mut self) -> Vec<(usize, usize, T)> {
+        let Setup { bodies, inertias, colliders, .. } = &self.setup;
+        let all = Scenery { bodies, inertias, colliders };
+        let found = self.pairs.iter().filter_map(|pair| Some((pair.0, pair.1, self.narrow_phase.overlap(all, *pair)?)));
+        found.collect()
     }
 
-    /// Contacts of the trial state.
-    fn detect(&mut self, reach: Reach) -> bool {
+    /// The contacts of the trial state.
+    fn detect(&mut self, reach: Reach) {
+        let Setup { inertias, colliders, .. } = &self.setup;
+        let all = Scenery { bodies: &self.trial, inertias, colliders };
         self.contacts.clear();
-        for (a, b) in &self.pairs {
-            self.narrow_phase.contacts(&self.trial, &self.setup.colliders, *a, *b, reach, &mut self.contacts);
+        for pair in &self.pairs {
+            self.narrow_phase.contacts(all, *pair, reach, &mut self.contacts);
         }
-        !self.contacts.is_empty()
+    }
+
+    /// Do bodies collide in the trial state? Those that overlap by no more than touching, and part already, do not: they
+    /// are on their way out of the last impact.
+    fn collides(&mut self) -> bool {
+        self.detect(Reach::Overlapping);
+        let Setup { inertias, colliders, .. } = &self.setup;
+        let all = Scenery { bodies: &self.trial, inertias, colliders };
+        let collides = |contact: &Contact<T>| {
+            -contact.separation > all.slack(contact.a, contact.b) || contact.approaches(all.bodies, inertias)
+        };
+        self.contacts.iter().any(collides)
     }
 
     /// Advances the trial state from the good one.
@@ -150,48 +177,105 @@ impl<T: Real> World<T> {
     /// Contact that persists, motion that cannot be continued. The state is then the last good one.
     pub fn advance_to(&mut self, end_s: f64, events: &mut Vec<Event>) -> Result<(), SimulationError> {
         let step_s = end_s - self.time_s;
-        for _ in 0..MAX_IMPACTS_PER_STEP {
+        loop {
             let rest_s = end_s - self.time_s;
             self.try_advance(rest_s)?;
-            if !self.detect(Reach::Overlapping) {
+            self.check_range(end_s)?;
+            if !self.collides() {
                 self.accept(end_s);
                 return Ok(());
             }
-            if !self.impact(rest_s, IMPACT_WIDTH * step_s / rest_s, events)? {
-                break;
-            }
+            self.impact(rest_s, IMPACT_WIDTH * step_s / rest_s, events)?;
         }
-        Err(self.persisting_contact(events))
     }
 
-    /// Goes to the first impact within the span and applies its impulses; says whether there were any.
-    fn impact(&mut self, span_s: f64, width: f64, events: &mut Vec<Event>) -> Result<bool, SimulationError> {
+    /// No state that is not finite may become the good one.
+    fn check_range(&self, time_s: f64) -> Result<(), SimulationError> {
+        let bodies = &self.trial;
+        let finite = |body_idx: usize| {
+            <[f64; 3]>::from(bodies.position[body_idx]).iter().all(|x| x.is_finite())
+                && <[T; 3]>::from(bodies.momentum[body_idx]).iter().all(|x| x.is_finite())
+                && <[T; 3]>::from(bodies.angular_momentum[body_idx]).iter().all(|x| x.is_finite())
+        };
+        match (0..bodies.len()).find(|body_idx| !finite(*body_idx)) {
+            Some(body_idx) => Err(SimulationError::OutOfRange { body_idx, time_s }),
+            None => Ok(()),
+        }
+    }
+
+    /// Takes note of an impact, contacts with their approach speeds; fails if its pair does not get apart any more.
+    fn refuse_persisting(
+        &mut self,
+        approaches: &[(usize, usize, T)],
+        events: &mut Vec<Event>,
+    ) -> Result<(), SimulationError> {
+        for (a, b, speed) in approaches {
+            let all = Scenery { bodies: &self.trial, inertias: &self.setup.inertias, colliders: &self.setup.colliders };
+            let slack = all.slack(*a, *b).to_f64();
+            let (last_s, count) = self.impacts.entry((*a, *b)).or_insert((f64::NEG_INFINITY, 0));
+            let apart = speed.to_f64() * (self.time_s - *last_s) >= slack;
+            (*last_s, *count) = (self.time_s, if apart { 0 } else { *count + 1 });
+            if *count >= PERSISTING_IMPACTS {
+                self.note_persisting(*a, *b, events);
+                return Err(SimulationError::StaysInContact { a: *a, b: *b, time_s: self.time_s });
+            }
+        }
+        Ok(())
+    }
+
+    fn note_persisting(&self, a: usize, b: usize, events: &mut Vec<Event>) {
+        let contact = self.contacts.iter().find(|contact| (contact.a, contact.b) == (a, b));
+        events.extend(contact.map(|contact| {
+            Event::new(self.time_s, EventKind::ContactPersists, contact, &self.setup.bodies, T::zero())
+        }));
+    }
+
+    /// Goes to the first impact within the span and applies its impulses.
+    fn impact(&mut self, span_s: f64, width: f64, events: &mut Vec<Event>) -> Result<(), SimulationError> {
         let bracket = collision::first_overlap(width.min(1.0), |fraction| {
             self.try_advance(fraction * span_s)?;
-            Ok::<bool, AdvanceError>(self.detect(Reach::Overlapping))
+            Ok::<bool, AdvanceError>(self.collides())
         })?;
-        // Features are read where the bodies overlap, impulses applied where they are still apart.
+        // Features are read where the bodies overlap, impulses applied where they are still apart. If nothing approaches
+        // there yet by more than rounding, the bodies go on to where it does.
         self.try_advance(bracket.overlapping * span_s)?;
         self.detect(Reach::Simultaneous);
         self.try_advance(bracket.separated * span_s)?;
-        self.accept(self.time_s + bracket.separated * span_s);
+        let apart = self.contacts.iter().map(|contact| contact.anchored(&self.trial));
+        let apart_approaches = apart.clone().any(|contact| contact.approaches(&self.trial, &self.setup.inertias));
+        if apart_approaches {
+            self.contacts = apart.collect();
+            self.accept(self.time_s + bracket.separated * span_s);
+        } else {
+            self.try_advance(bracket.overlapping * span_s)?;
+            self.accept(self.time_s + bracket.overlapping * span_s);
+        }
+        let approaches = self.approaches();
         let Setup { bodies, inertias, restitution, .. } = &mut self.setup;
-        self.contacts.iter_mut().for_each(|contact| *contact = contact.anchored(bodies));
         let impulses = collision::resolve(&self.contacts, bodies, inertias, *restitution);
         let bodies = &self.setup.bodies;
         let impact = |impulse: &collision::Impulse<T>| {
             Event::new(self.time_s, EventKind::Impact, &impulse.contact, bodies, impulse.magnitude)
         };
         events.extend(impulses.iter().map(impact));
-        Ok(!impulses.is_empty())
+        self.refuse_persisting(&approaches, events)
     }
 
-    fn persisting_contact(&self, events: &mut Vec<Event>) -> SimulationError {
-        let (mut a, mut b) = (0, 0);
-        if let Some(contact) = self.contacts.first() {
-            (a, b) = (contact.a, contact.b);
-            events.push(Event::new(self.time_s, EventKind::ContactPersists, contact, &self.setup.bodies, T::zero()));
+    /// The pairs in contact, each once, with the fastest approach at any of their contacts.
+    fn approaches(&self) -> Vec<(usize, usize, T)> {
+        let Setup { bodies, inertias, .. } = &self.setup;
+        let mut fastest: BTreeMap<(usize, usize), T> = BTreeMap::new();
+        for contact in &self.contacts {
+            let speed = contact.approach_speed(bodies, inertias);
+            let known = fastest.entry((contact.a, contact.b)).or_insert(T::zero());
+            *known = known.max(speed);
         }
-        SimulationError::StaysInContact { a, b, time_s: self.time_s }
+        // Where none approaches, all are to blame: an impact that leads nowhere must count, or it would come for ever.
+        let any = fastest.values().any(|speed| *speed > T::zero());
+        fastest
+            .into_iter()
+            .filter(|(_, speed)| !any || *speed > T::zero())
+            .map(|((a, b), speed)| (a, b, speed))
+            .collect()
     }
 }
