@@ -9,6 +9,7 @@ use crate::product::Kind;
 use crate::program::{Builder, Program, Scaled};
 use crate::signature::Kind as Metric;
 use crate::spec::Spec;
+use syn::spanned::Spanned;
 
 /// An operation on declared types, by index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,7 +92,8 @@ pub fn operations(spec: &Spec) -> Vec<Operation> {
     result
 }
 
-/// Compiles an operation; `None` where it is identically zero, undefined, or no declared type holds its result.
+/// Compiles an operation; `None` where it is identically zero, undefined, no declared type holds its result, or a
+/// constant of it exceeds 32 bits.
 ///
 /// # Errors
 /// A kernel that is wrong, or a unit type that cannot be sampled.
@@ -115,7 +117,16 @@ pub fn compile(spec: &Spec, operation: Operation) -> syn::Result<Option<Item>> {
         (output, optimise(&builder, &outputs))
     });
     let best = programs.min_by_key(|(_, program)| (program.counts().div, program.counts().operations()));
-    Ok(best.map(|(output, program)| Item { operation, name, parameters, output, program }))
+    let best = best.map(|(output, program)| Item { operation, name, parameters, output, program });
+    match (best.as_ref().and_then(|item| item.program.oversized()), operation) {
+        (None, _) => Ok(best),
+        (Some(constant), Operation::Kernel(index)) => {
+            let body = &spec.kernels[index].body;
+            let message = format!("this needs the number {constant}; constants of generated code have 32 bits");
+            Err(syn::Error::new(body.span(), message))
+        }
+        (Some(_), _) => Ok(None),
+    }
 }
 
 /// The coefficients of `a ~a` for a type that declares them to be those of 1, one output a blade.

@@ -28,10 +28,17 @@ pub type Lowered = (Builder, Output, Vec<Scaled>);
 pub fn lower(spec: &Spec, source: &KernelSource, way: Sandwich) -> syn::Result<Lowered> {
     let mut lowering = Lowering::new(spec, way);
     let mut types = Vec::new();
-    for (name, ty) in &source.parameters {
+    for (position, (name, ty)) in source.parameters.iter().enumerate() {
+        if source.parameters[..position].iter().any(|(earlier, _)| earlier == name) {
+            return Err(Error::new(name.span(), format!("parameter `{name}` stands twice")));
+        }
         let index = find_type(spec, ty)?;
         lowering.add_parameter(&name.to_string(), index)?;
         types.push(index);
+    }
+    if types.iter().all(|index| spec.types[*index].fields.is_empty()) {
+        let message = "a kernel needs a parameter that stores numbers: without one it has no scalar to compute in";
+        return Err(Error::new(source.name.span(), message));
     }
     let translator = enter_frame(&mut lowering, spec, source, &types)?;
     let expression = Reader { spec, source }.expression(&source.body)?;
@@ -42,9 +49,17 @@ pub fn lower(spec: &Spec, source: &KernelSource, way: Sandwich) -> syn::Result<L
     let fault = |message: &str| Error::new(source.body.span(), message);
     let undefined = || fault("this has no value: a dual needs a pseudoscalar with a square other than 0");
     if source.output == "Scalar" {
+        if normalised {
+            return Err(fault("a scalar is not normalised: it would be 1 or -1"));
+        }
         let components = lowering.lower(&body).ok_or_else(undefined)?;
+        if components.is_empty() {
+            return Err(fault("the result is identically zero"));
+        }
         let value = components.get(&Blade::SCALAR).copied().filter(|_| components.len() == 1);
-        let value = value.ok_or_else(|| fault("the result is no scalar"))?;
+        let misfit =
+            || Error::new(source.output.span(), format!("the result is no scalar: {}", describe(spec, &components)));
+        let value = value.ok_or_else(misfit)?;
         return Ok((lowering.builder, Output::Scalar, vec![value]));
     }
     let index = find_type(spec, &source.output)?;

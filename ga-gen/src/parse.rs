@@ -11,7 +11,7 @@
 //! fn sphere(a: Point, b: Point, c: Point, d: Point) -> Sphere, local a { (a ^ b ^ c ^ d).dual().normalised() }
 //! ```
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Attribute, Expr, Ident, Token, Visibility};
@@ -132,7 +132,11 @@ impl Parse for Source {
         let name = input.parse()?;
         let mut extends = None;
         if input.parse::<Option<keyword::extends>>()?.is_some() {
-            extends = Some(syn::Path::parse_mod_style(input)?);
+            let base = syn::Path::parse_mod_style(input)?;
+            if base.is_ident("self") || base.is_ident(&name) {
+                return Err(syn::Error::new_spanned(base, "an algebra does not extend itself"));
+            }
+            extends = Some(base);
         }
         input.parse::<Token![;]>()?;
         let mut source =
@@ -153,7 +157,10 @@ impl Source {
             self.basis.extend(Punctuated::<Basis, Token![,]>::parse_separated_nonempty(input)?);
             input.parse::<Token![;]>()?;
         } else if lookahead.peek(keyword::pseudoscalar) {
-            input.parse::<keyword::pseudoscalar>()?;
+            let keyword = input.parse::<keyword::pseudoscalar>()?;
+            if self.pseudoscalar.is_some() {
+                return Err(syn::Error::new(keyword.span, "the pseudoscalar is declared twice"));
+            }
             let negative = input.parse::<Option<Token![-]>>()?.is_some();
             self.pseudoscalar = Some((negative, input.parse()?));
             input.parse::<Token![;]>()?;
@@ -168,11 +175,12 @@ impl Source {
     }
 }
 
-fn parse_square(input: ParseStream) -> syn::Result<i8> {
+/// A square or an inner product, and where it stands.
+fn parse_square(input: ParseStream) -> syn::Result<(i8, Span)> {
     let negative = input.parse::<Option<Token![-]>>()?.is_some();
     let literal: syn::LitInt = input.parse()?;
-    match literal.base10_parse::<i8>()? {
-        value @ (0 | 1) => Ok(if negative { -value } else { value }),
+    match literal.base10_parse::<i8>() {
+        Ok(value @ (0 | 1)) => Ok((if negative { -value } else { value }, literal.span())),
         _ => Err(syn::Error::new(literal.span(), "a basis vector squares to 1, -1 or 0; scale it until it does")),
     }
 }
@@ -182,7 +190,7 @@ impl Parse for Basis {
         if input.parse::<Option<keyword::null>>()?.is_none() {
             let name = input.parse()?;
             input.parse::<Token![=]>()?;
-            return Ok(Self::Vector(name, parse_square(input)?));
+            return Ok(Self::Vector(name, parse_square(input)?.0));
         }
         input.parse::<keyword::pair>()?;
         let names;
@@ -192,11 +200,11 @@ impl Parse for Basis {
         let second = names.parse()?;
         input.parse::<Token![=]>()?;
         match parse_square(input)? {
-            0 => Err(syn::Error::new(
-                first.span(),
+            (0, span) => Err(syn::Error::new(
+                span,
                 "a null pair has inner product 1 or -1; with 0 these are two vectors of square 0",
             )),
-            inner => Ok(Self::Pair(first, second, inner)),
+            (inner, _) => Ok(Self::Pair(first, second, inner)),
         }
     }
 }
@@ -251,11 +259,15 @@ impl KernelSource {
         let output = input.parse()?;
         let mut frame = Frame::World;
         if input.parse::<Option<Token![,]>>()?.is_some() {
-            frame = if input.parse::<Option<keyword::local>>()?.is_some() {
+            let lookahead = input.lookahead1();
+            frame = if lookahead.peek(keyword::local) {
+                input.parse::<keyword::local>()?;
                 Frame::Local(input.parse()?)
-            } else {
+            } else if lookahead.peek(keyword::relative) {
                 input.parse::<keyword::relative>()?;
                 Frame::Relative(input.parse()?)
+            } else {
+                return Err(lookahead.error());
             };
         }
         let body;

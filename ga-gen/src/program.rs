@@ -272,6 +272,17 @@ impl Counts {
 }
 
 impl Program {
+    /// The first constant that generated code could not say, if there is one.
+    #[must_use]
+    pub fn oversized(&self) -> Option<Rational> {
+        let constants = |step: &Step| match &step.value {
+            Value::Quotient(numerator, _) => vec![*numerator],
+            Value::Sqrt(_) => vec![],
+            Value::Sum(products) => products.iter().map(|product| product.coefficient).collect(),
+        };
+        self.steps.iter().chain(&self.outputs).flat_map(constants).find(|constant| !constant.fits())
+    }
+
     /// Counts the operations that the emitted code performs.
     #[must_use]
     pub fn counts(&self) -> Counts {

@@ -84,10 +84,16 @@ impl Spec {
     pub fn new(source: &Source, base: Option<&Self>) -> syn::Result<Self> {
         let mut signature = base.map(|base| base.signature.clone()).unwrap_or_default();
         add_basis(&mut signature, &source.basis)?;
+        if signature.dimension() == 0 {
+            let message = "this algebra has no basis vector; write `basis e1 = 1, e2 = 1;` with their squares";
+            return Err(Error::new(source.name.span(), message));
+        }
         let pseudoscalar = source.pseudoscalar.as_ref().map(|(negative, blade)| {
             let (found, odd) = parse_blade(&signature, blade)?;
             if found.grade() as usize != signature.dimension() {
-                return Err(Error::new(blade.span(), "the pseudoscalar is the product of all basis vectors"));
+                let all = signature.names().join(", ");
+                let message = format!("the pseudoscalar is the product of all basis vectors: {all}");
+                return Err(Error::new(blade.span(), message));
             }
             Ok(Pseudoscalar::new(&signature, if *negative == odd { Rational::ONE } else { -Rational::ONE }))
         });
@@ -101,6 +107,7 @@ impl Spec {
             }
             types.push(check_type(&signature, own)?);
         }
+        check_names(source)?;
         Ok(Self {
             name: source.name.clone(),
             visibility: source.visibility.clone(),
@@ -143,6 +150,7 @@ impl Spec {
         let ty = &self.types[index];
         let mut stream = Stream::named(&format!("{parameter}: {}", ty.name));
         let mut fields = vec![Fingerprint::constant(Rational::ZERO); ty.fields.len()];
+        let mut elements = Vec::new();
         for point in 0..POINTS {
             let element = if ty.unit { Some(self.unit_element(ty, &mut stream)?) } else { None };
             for (field, values) in fields.iter_mut().enumerate() {
@@ -151,6 +159,15 @@ impl Spec {
                     Some(element) => stored_value(ty, field, element),
                 };
             }
+            elements.extend(element);
+        }
+        let contradicts = |(blade, polynomial): (&Blade, &Polynomial)| {
+            let Fingerprint(values) = polynomial.fingerprint(&fields);
+            elements.iter().zip(values).any(|(element, value)| value_of(element, *blade) != value)
+        };
+        if ty.coefficients.iter().any(contradicts) {
+            let message = "`unit` contradicts the constants of this type: a unit multivector has other coefficients";
+            return Err(Error::new(ty.name.span(), message));
         }
         Ok(fields)
     }
@@ -217,6 +234,10 @@ fn reversed(a: &Dense) -> Dense {
     a.iter().map(|(b, value)| (*b, if b.reverse_is_negative() { value.negated() } else { *value })).collect()
 }
 
+fn value_of(element: &Dense, blade: Blade) -> Residue {
+    element.get(&blade).copied().unwrap_or(Residue::ZERO)
+}
+
 fn pairs(vectors: &[Blade]) -> Vec<Blade> {
     let all = vectors.iter().flat_map(|a| vectors.iter().map(move |b| (a, b)));
     all.filter(|(a, b)| a < b).map(|(a, b)| Blade(a.0 | b.0)).collect()
@@ -228,9 +249,37 @@ fn stored_value(ty: &Type, field: usize, element: &Dense) -> Residue {
         (index == field).then_some((blade, factor))
     });
     stored.map_or(Residue::ZERO, |(blade, factor)| {
-        let value = element.get(blade).copied().unwrap_or(Residue::ZERO);
+        let value = value_of(element, *blade);
         value.times(factor.recip().unwrap_or(Rational::ONE).into())
     })
+}
+
+/// Names that generated code uses itself, and kernels that share one.
+fn check_names(source: &Source) -> syn::Result<()> {
+    for ty in &source.types {
+        if ["T", "Scalar", "Algebra", "Dual", "Undual", "Meet"].iter().any(|taken| ty.name == taken) {
+            let message = format!("`{}` means something else in generated code; name the type differently", ty.name);
+            return Err(Error::new(ty.name.span(), message));
+        }
+    }
+    for (index, kernel) in source.kernels.iter().enumerate() {
+        let twice = source.kernels[..index].iter().any(|earlier| earlier.name == kernel.name);
+        if twice || ["dual", "undual", "meet"].iter().any(|taken| kernel.name == taken) {
+            return Err(Error::new(kernel.name.span(), format!("a function `{}` exists already", kernel.name)));
+        }
+    }
+    Ok(())
+}
+
+/// A blade is named by its factors, so their names must not read like blades themselves.
+fn check_basis_name(name: &Ident) -> syn::Result<()> {
+    let text = name.to_string();
+    let digits = text.strip_prefix('e').is_some_and(|rest| rest.len() > 1 && rest.bytes().all(|b| b.is_ascii_digit()));
+    if digits || text.contains('_') || text.starts_with("r#") {
+        let message = format!("`{text}` reads like a blade; name basis vectors like e1 or ninf, without underscore");
+        return Err(Error::new(name.span(), message));
+    }
+    Ok(())
 }
 
 fn add_basis(signature: &mut Signature, basis: &[Basis]) -> syn::Result<()> {
@@ -239,8 +288,9 @@ fn add_basis(signature: &mut Signature, basis: &[Basis]) -> syn::Result<()> {
             Basis::Vector(name, _) => vec![name],
             Basis::Pair(first, second, _) => vec![first, second],
         };
-        for name in &names {
-            if signature.names().iter().any(|known| *name == known) || *name == "s" {
+        for (index, name) in names.iter().enumerate() {
+            check_basis_name(name)?;
+            if signature.names().iter().any(|known| *name == known) || *name == "s" || names[..index].contains(name) {
                 return Err(Error::new(name.span(), format!("basis vector `{name}` is already taken")));
             }
         }
@@ -298,6 +348,9 @@ fn check_type(signature: &Signature, source: &TypeSource) -> syn::Result<Type> {
             for (name, constant) in blades {
                 let (blade, odd) = parse_blade(signature, name)?;
                 let magnitude = match constant {
+                    Some(literal) if integer(literal)? == 0 => {
+                        return Err(Error::new(literal.span(), format!("leave `{name}` out, and it is 0")));
+                    }
                     Some(literal) => Polynomial::constant(integer(literal)?.into()),
                     None => Polynomial::field(ty.fields.len()),
                 };
@@ -315,7 +368,28 @@ fn check_type(signature: &Signature, source: &TypeSource) -> syn::Result<Type> {
             ty.coefficients.retain(|_, coefficient| !coefficient.is_zero());
         }
     }
+    check_coefficients(&ty)?;
     Ok(ty)
+}
+
+/// The largest part of a fraction in a type: the product of two of them still has 32 bits.
+const LARGEST_CONSTANT: i128 = 1 << 15;
+
+fn check_coefficients(ty: &Type) -> syn::Result<()> {
+    let fault = |message: String| Err(Error::new(ty.name.span(), message));
+    if ty.coefficients.is_empty() {
+        return fault("this type has no blade".into());
+    }
+    if let Some(idle) = (0..ty.fields.len()).find(|f| !ty.coefficients.values().any(|c| c.fields().contains(f))) {
+        return fault(format!("the number `{}` of this type cancels", ty.fields[idle]));
+    }
+    let mut constants = ty.coefficients.values().flat_map(Polynomial::terms).map(|(_, constant)| constant);
+    let large =
+        |c: &Rational| !c.fits() || c.numerator().abs() > LARGEST_CONSTANT || c.denominator() > LARGEST_CONSTANT;
+    match constants.find(large) {
+        Some(constant) => fault(format!("{constant} is too large for a constant of a type: up to {LARGEST_CONSTANT}")),
+        None => Ok(()),
+    }
 }
 
 /// Evaluates the sum form of a type: identifiers are blades, or else fields in order of appearance.
@@ -332,6 +406,10 @@ fn evaluate(
             let name = path.path.require_ident()?;
             if let Some((blade, odd)) = signature.parse(&name.to_string()) {
                 return Ok(only(blade, Polynomial::constant(if odd { -Rational::ONE } else { Rational::ONE })));
+            }
+            // A field could have such a name; but whoever writes it means a blade.
+            if name.to_string().strip_prefix('e').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit())) {
+                parse_blade(signature, name)?;
             }
             let known = fields.iter().position(|field| name == field);
             let index = known.unwrap_or_else(|| {
@@ -390,7 +468,10 @@ fn scale(a: BTreeMap<Blade, Polynomial>, factor: &Polynomial) -> BTreeMap<Blade,
 /// Any other literal.
 pub fn integer(literal: &Lit) -> syn::Result<i32> {
     match literal {
-        Lit::Int(value) => value.base10_parse(),
+        Lit::Int(value) => {
+            let fault = |_| Error::new(value.span(), format!("integers here go up to {}", i32::MAX));
+            value.base10_parse().map_err(fault)
+        }
         other => Err(Error::new(
             other.span(),
             "numbers in a formula are integers; write 1/2 for a half, so that it stays exact",

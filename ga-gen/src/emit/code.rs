@@ -100,7 +100,11 @@ fn path(name: &str) -> TokenStream {
 
 /// An identifier from a generated name.
 pub(super) fn identifier(name: &str) -> Ident {
-    if KEYWORDS.contains(&name) { format_ident!("{name}_") } else { Ident::new(name, Span::call_site()) }
+    match name.strip_prefix("r#") {
+        Some(raw) => Ident::new_raw(raw, Span::call_site()),
+        None if KEYWORDS.contains(&name) => format_ident!("{name}_"),
+        None => Ident::new(name, Span::call_site()),
+    }
 }
 
 /// What Rust does not take as a name. A list, because asking the parser about every name of every product took a third
@@ -119,4 +123,22 @@ pub(super) fn reads(program: &Program, parameter: &str) -> bool {
         Value::Quotient(_, name) | Value::Sqrt(name) => name.starts_with(&prefix),
         Value::Sum(products) => products.iter().any(|product| product.factors.iter().any(|f| f.starts_with(&prefix))),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_that_rust_reserves_are_changed() {
+        for keyword in KEYWORDS {
+            assert_eq!(identifier(keyword).to_string(), format!("{keyword}_"));
+            // The parser of syn knows `gen` as a name; since the 2024 edition it is none.
+            assert!(keyword == "gen" || syn::parse_str::<Ident>(keyword).is_err(), "{keyword} is a name");
+        }
+        for name in ["e1", "r#type", "union", "default", "auto", "raw", "x"] {
+            assert_eq!(identifier(name).to_string(), name);
+            assert!(syn::parse_str::<Ident>(name).is_ok(), "{name} is no name");
+        }
+    }
 }

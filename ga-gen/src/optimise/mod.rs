@@ -73,8 +73,13 @@ pub fn optimise(builder: &Builder, outputs: &[(String, Scaled)]) -> Program {
 
 /// Names the steps and lists them in dependency order.
 fn schedule(graph: &Graph) -> Program {
-    let mut scheduler =
-        Scheduler { graph, names: BTreeMap::new(), taken: BTreeMap::new(), program: Program::default() };
+    // A step must not hide a parameter.
+    let parameters = graph.nodes.iter().filter_map(|work| match &work.node {
+        Node::Input(path) => path.split('.').next().map(|root| (root.to_string(), 1)),
+        _ => None,
+    });
+    let taken = parameters.collect();
+    let mut scheduler = Scheduler { graph, names: BTreeMap::new(), taken, program: Program::default() };
     for (name, terms) in &graph.outputs {
         let value = Value::Sum(scheduler.products(terms));
         scheduler.program.outputs.push(Step { name: name.clone(), value });
