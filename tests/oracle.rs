@@ -5,33 +5,16 @@
 //! exactly unit elements made as q²/|q|². Equality is exact.
 #![allow(clippy::unwrap_used, clippy::cast_possible_truncation, reason = "a test may panic")]
 
+#[macro_use]
+#[path = "support/operations.rs"]
+mod operations;
 #[path = "support/rational.rs"]
 mod rational;
 
 use ga_physics::algebra::dynamic::{Dynamic, ToDynamic};
 use ga_physics::algebra::{cga, g3};
+use operations::{Random, Sample};
 use rational::Rational;
-
-/// SplitMix64: small integers, zero included.
-struct Random(u64);
-
-impl Random {
-    fn integer(&mut self) -> i128 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        i128::from((z ^ (z >> 31)) % 7) - 3
-    }
-
-    fn rational(&mut self) -> Rational {
-        Rational::new(self.integer(), 1)
-    }
-}
-
-trait Sample {
-    fn sample(random: &mut Random) -> Self;
-}
 
 /// q²/|q|² of an integer quaternion: an exactly unit rotor.
 fn unit_rotor(random: &mut Random) -> g3::Rotor<Rational> {
@@ -45,115 +28,10 @@ fn unit_translator(random: &mut Random) -> cga::Translator<Rational> {
     cga::Translator::from_fn(|_| Rational::new(random.integer(), 2))
 }
 
-macro_rules! integers {
-    ($($name:ident)*) => {$(
-        impl Sample for $name {
-            fn sample(random: &mut Random) -> Self { Self::from_fn(|_| random.rational()) }
-        }
-    )*};
-}
-
 macro_rules! constants {
     ($($name:ident)*) => {$(
         impl Sample for $name { fn sample(_: &mut Random) -> Self { Self } }
     )*};
-}
-
-/// Comparison of results, bare scalars included.
-macro_rules! checks {
-    ($algebra:ty) => {
-        type Multi = Dynamic<$algebra, Rational>;
-
-        impl ToDynamic<$algebra, Rational> for Rational {
-            fn to_dynamic(&self) -> Multi {
-                Dynamic::from_terms(&[(0, *self)])
-            }
-        }
-
-        fn binary<A, B, C>(name: &str, op: impl Fn(A, B) -> C, expected: impl Fn(&Multi, &Multi) -> Multi)
-        where
-            A: Sample + Copy + ToDynamic<$algebra, Rational>,
-            B: Sample + Copy + ToDynamic<$algebra, Rational>,
-            C: ToDynamic<$algebra, Rational>,
-        {
-            let mut random = Random(name.bytes().map(u64::from).sum());
-            for _ in 0..4 {
-                let (a, b) = (A::sample(&mut random), B::sample(&mut random));
-                let (x, y) = (a.to_dynamic(), b.to_dynamic());
-                let (actual, expected) = (op(a, b).to_dynamic(), expected(&x, &y));
-                assert!(actual == expected, "{name}: {x:?} and {y:?} give {actual:?}, expected {expected:?}");
-            }
-        }
-
-        fn unary<A, C>(name: &str, op: impl Fn(A) -> C, expected: impl Fn(&Multi) -> Multi)
-        where
-            A: Sample + Copy + ToDynamic<$algebra, Rational>,
-            C: ToDynamic<$algebra, Rational>,
-        {
-            let mut random = Random(name.bytes().map(u64::from).sum());
-            for _ in 0..4 {
-                let a = A::sample(&mut random);
-                let x = a.to_dynamic();
-                let (actual, expected) = (op(a).to_dynamic(), expected(&x));
-                assert!(actual == expected, "{name}: {x:?} gives {actual:?}, expected {expected:?}");
-            }
-        }
-    };
-}
-
-macro_rules! check {
-    ($(($($entry:tt)*))*) => {
-        /// How many operations of each kind were compared.
-        fn compare_all() -> usize {
-            let mut count = 0;
-            $( count += 1; one!($($entry)*); )*
-            count
-        }
-    };
-}
-
-macro_rules! one {
-    (mul $a:ident $b:ident) => {
-        binary::<$a, $b, _>(concat!(stringify!($a), " * ", stringify!($b)), |a, b| a * b, |x, y| x * y)
-    };
-    (bitxor $a:ident $b:ident) => {
-        binary::<$a, $b, _>(concat!(stringify!($a), " ^ ", stringify!($b)), |a, b| a ^ b, |x, y| x ^ y)
-    };
-    (bitor $a:ident $b:ident) => {
-        binary::<$a, $b, _>(concat!(stringify!($a), " | ", stringify!($b)), |a, b| a | b, |x, y| x | y)
-    };
-    (meet $a:ident $b:ident) => {
-        binary::<$a, $b, _>(
-            concat!(stringify!($a), " & ", stringify!($b)),
-            |a, b| algebra::meet(a, b),
-            |x, y| x.meet(y).unwrap(),
-        )
-    };
-    (apply $a:ident $b:ident) => {
-        binary::<$a, $b, _>(
-            concat!(stringify!($a), ".apply(", stringify!($b), ")"),
-            |a, b| a.apply(b),
-            |x, y| image(x, y, stringify!($b)),
-        )
-    };
-    (embed $a:ident $b:ident) => {
-        unary::<$a, $b>(concat!(stringify!($b), "::from(", stringify!($a), ")"), |a| $b::from(a), |x| x.clone())
-    };
-    (rev $a:ident) => {
-        unary::<$a, _>(concat!(stringify!($a), ".rev()"), |a| a.rev(), |x| x.rev())
-    };
-    (dual $a:ident) => {
-        unary::<$a, _>(concat!("dual ", stringify!($a)), |a| algebra::dual(a), |x| x.dual().unwrap())
-    };
-    (undual $a:ident) => {
-        unary::<$a, _>(concat!("undual ", stringify!($a)), |a| algebra::undual(a), |x| x.undual().unwrap())
-    };
-    (norm_sq $a:ident) => {
-        unary::<$a, _>(concat!(stringify!($a), ".norm_sq()"), |a| a.norm_sq(), |x| (x * &x.rev()).grade(0))
-    };
-    (grade $a:ident $method:ident $grade:literal) => {
-        unary::<$a, _>(concat!(stringify!($a), " grade ", $grade), |a| a.$method(), |x| x.grade($grade))
-    };
 }
 
 mod euclidean {
