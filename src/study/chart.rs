@@ -1,6 +1,6 @@
 //! Charts of the study, as SVG.
 
-use super::StudyError;
+use super::{StudyError, rounded};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -94,7 +94,7 @@ fn draw(area: &Area<'_>, caption: &str, series: &[&str], groups: &[Group]) -> Re
             chart.draw_series([PathElement::new([(bar.low, middle), (bar.high, middle)], BLACK)])?;
             let style = TextStyle::from(("sans-serif", 13)).pos(Pos::new(HPos::Left, VPos::Center));
             chart.draw_series([
-                EmptyElement::at((bar.high.max(1.0), middle)) + Text::new(label(bar.value), (6, 0), style)
+                EmptyElement::at((bar.high.max(1.0), middle)) + Text::new(rounded(bar.value), (6, 0), style)
             ])?;
             y += f64::from(BAR_HEIGHT);
         }
@@ -118,13 +118,4 @@ fn draw_legend(area: &Area<'_>, series: &[&str]) -> Result<(), StudyError> {
         area.draw(&Text::new(*name, (left + 20, 14), style))?;
     }
     Ok(())
-}
-
-/// Two or three significant digits.
-fn label(value: f64) -> String {
-    match value {
-        value if value < 10.0 => format!("{value:.2}"),
-        value if value < 100.0 => format!("{value:.1}"),
-        value => format!("{value:.0}"),
-    }
 }

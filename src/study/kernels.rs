@@ -15,6 +15,7 @@ use crate::algebra::dynamic::{Dynamic, Metric};
 use serde::Serialize;
 use std::hint::black_box;
 use std::path::Path;
+use std::rc::Rc;
 
 /// Agreement to half of the digits: rounding of these well-conditioned inputs takes two or three digits, a wrong sign or
 /// factor leaves none. sqrt(2^-52), and sqrt(2^-23) where inputs and results are single.
@@ -224,7 +225,16 @@ pub fn measure(effort: Effort, command: &str, progress: &mut dyn FnMut(&str)) ->
         let samples = timing::measure(&rivals, kernel.calls(), effort);
         rows.push(KernelRow::new(&kernel, &differences, &samples));
     }
-    Ok(StudyReport { provenance: Provenance::gather(command), rounds: effort.rounds, kernels: rows })
+    progress("allocation");
+    let allocation = timing::measure(&[&allocate], cases::INPUTS, effort).timing(0);
+    Ok(StudyReport { provenance: Provenance::gather(command), rounds: effort.rounds, allocation, kernels: rows })
+}
+
+/// As many shared blocks of a rotor's size as a pass makes results, each given back at once.
+fn allocate() {
+    for _ in 0..cases::INPUTS {
+        black_box(Rc::<[f64]>::from(black_box([0.0; 4])));
+    }
 }
 
 /// Checks and times all kernels, and writes `kernels.json`, `kernels.md` and `kernels.svg` into `out`.

@@ -44,6 +44,15 @@ pub enum StudyError {
     Json(#[from] serde_json::Error),
 }
 
+/// Three significant digits: `0.49`, `2.05`, `20.5`, `205`.
+fn rounded(value: f64) -> String {
+    match value {
+        value if value < 10.0 => format!("{value:.2}"),
+        value if value < 100.0 => format!("{value:.1}"),
+        value => format!("{value:.0}"),
+    }
+}
+
 /// Writes a file of the study, whole or not at all.
 fn write_file(directory: &Path, name: &str, content: &str) -> Result<PathBuf, StudyError> {
     let path = directory.join(name);
