@@ -1,6 +1,7 @@
 //! Charts of the study, as SVG.
 
 use super::{StudyError, rounded};
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -59,7 +60,7 @@ fn draw(area: &Area<'_>, caption: &str, series: &[&str], groups: &[Group]) -> Re
         .fold((1.0_f64, 1.0_f64), |(low, high), bar| (low.min(bar.low), high.max(bar.high)));
     // Room for the labels at the ends of the bars.
     let (low, high) = ((extremes.0 * 0.7).min(0.5), extremes.1 * 3.0);
-    // Ordinates are pixels from the top of the plot.
+    // Ordinates run from the top of the plot, about a pixel a unit.
     let rows = groups.iter().map(|group| group.bars.len() as f64 * f64::from(BAR_HEIGHT) + f64::from(GAP)).sum::<f64>();
     let area = area.titled(caption, ("sans-serif", 18))?;
     let (legend, plot) = area.split_vertically(30);
@@ -87,20 +88,27 @@ fn draw(area: &Area<'_>, caption: &str, series: &[&str], groups: &[Group]) -> Re
         // Absolute pixels: the names stand outside the plot.
         plot.draw(&Text::new(group.name.clone(), relative_to(&plot, (x0 - 12, y0)), style))?;
         for bar in &group.bars {
-            let colour = COLOURS[bar.series % COLOURS.len()];
-            let (top, bottom) = (y + 2.0, y + f64::from(BAR_HEIGHT) - 2.0);
-            let middle = f64::midpoint(top, bottom);
-            chart.draw_series([Rectangle::new([(1.0, top), (bar.value, bottom)], colour.filled())])?;
-            chart.draw_series([PathElement::new([(bar.low, middle), (bar.high, middle)], BLACK)])?;
-            let style = TextStyle::from(("sans-serif", 13)).pos(Pos::new(HPos::Left, VPos::Center));
-            chart.draw_series([
-                EmptyElement::at((bar.high.max(1.0), middle)) + Text::new(rounded(bar.value), (6, 0), style)
-            ])?;
+            draw_bar(&mut chart, bar, y)?;
             y += f64::from(BAR_HEIGHT);
         }
         y += f64::from(GAP);
     }
     chart.draw_series([PathElement::new([(1.0, 0.0), (1.0, rows)], BLACK.stroke_width(1))])?;
+    Ok(())
+}
+
+type Plot<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<LogCoord<f64>, RangedCoordf64>>;
+
+/// The bar, its interval as a line, and its value behind it.
+fn draw_bar(chart: &mut Plot<'_>, bar: &Bar, y: f64) -> Result<(), StudyError> {
+    let colour = COLOURS[bar.series % COLOURS.len()];
+    let (top, bottom) = (y + 2.0, y + f64::from(BAR_HEIGHT) - 2.0);
+    let middle = f64::midpoint(top, bottom);
+    chart.draw_series([Rectangle::new([(1.0, top), (bar.value, bottom)], colour.filled())])?;
+    chart.draw_series([PathElement::new([(bar.low, middle), (bar.high, middle)], BLACK)])?;
+    let style = TextStyle::from(("sans-serif", 13)).pos(Pos::new(HPos::Left, VPos::Center));
+    let end = (bar.high.max(1.0), middle);
+    chart.draw_series([EmptyElement::at(end) + Text::new(rounded(bar.value), (6, 0), style)])?;
     Ok(())
 }
 
