@@ -82,3 +82,8 @@ pub mod study;
 pub mod versor;
 
 pub use ga_macros::{__algebra_with_base, algebra};
+
+/// The examples of the README are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -148,6 +148,73 @@ mod conformal {
         assert!(compared > 1500, "only {compared} operations were compared");
     }
 
+    /// `~T x T` with the translator of a point: x seen from there.
+    fn seen_from(origin: Point, x: &Multi) -> Multi {
+        let displacement = g3::Vector::new(origin.x, origin.y, origin.z);
+        let back: Multi = cga::Translator::by(displacement).rev().to_dynamic();
+        &(&back * x) * &back.rev()
+    }
+
+    /// Kernels are whole formulas, in the local frame of their first point: each against the same formula, product by
+    /// product, in the world, and then moved there.
+    #[test]
+    fn every_relative_kernel_agrees_with_its_formula() {
+        let mut random = Random(11);
+        let ninf: Multi = Infinity.to_dynamic();
+        for _ in 0..50 {
+            let points: [Point; 4] = std::array::from_fn(|_| Point::sample(&mut random));
+            let [p, q, r, t] = points;
+            let [a, b, c, d] = points.map(|point| point.to_dynamic());
+            let (plane, line, circle) =
+                (Plane::sample(&mut random), Line::sample(&mut random), Circle::sample(&mut random));
+            let check = |name: &str, kernel: Multi, formula: &Multi| {
+                assert!(kernel == seen_from(p, formula), "{name} of {points:?}: {kernel:?}");
+            };
+            let dual = |x: &Multi| x.dual().unwrap();
+            let (wedge3, flat) = (&(&a ^ &b) ^ &c, &(&(&a ^ &b) ^ &c) ^ &ninf);
+            check("circumsphere_relative", cga::circumsphere_relative(p, q, r, t).to_dynamic(), &dual(&(&wedge3 ^ &d)));
+            let sphere = dual(&(&wedge3 ^ &dual(&(&wedge3 ^ &ninf))));
+            check("circle_sphere_relative", cga::circle_sphere_relative(p, q, r).to_dynamic(), &sphere);
+            check("plane_relative", cga::plane_relative(p, q, r).to_dynamic(), &dual(&flat));
+            check("line_relative", cga::line_relative(p, q).to_dynamic(), &(&(&a ^ &b) ^ &ninf));
+            let meet = &plane.to_dynamic() | &(&(&a ^ &b) ^ &ninf);
+            check("line_meets_plane_relative", cga::line_meets_plane_relative(p, q, plane).to_dynamic(), &meet);
+            let reciprocal = -&(&(&ninf ^ &(&b ^ &c)) | &flat);
+            check("reciprocal_relative", cga::reciprocal_relative(p, q, r).to_dynamic(), &reciprocal);
+            let image = |m: &Multi| (&(m * &a) * m).grade(1);
+            check(
+                "reflect_in_line_relative",
+                cga::reflect_in_line_relative(p, line).to_dynamic(),
+                &image(&line.to_dynamic()),
+            );
+            let in_circle = cga::reflect_in_circle_relative(p, circle).to_dynamic();
+            check("reflect_in_circle_relative", in_circle, &image(&circle.to_dynamic()));
+        }
+    }
+
+    #[test]
+    fn every_other_kernel_agrees_with_its_formula() {
+        let mut random = Random(12);
+        let (ninf, half): (Multi, Rational) = (Infinity.to_dynamic(), Rational::new(1, 2));
+        for _ in 0..50 {
+            let points: [Point; 2] = std::array::from_fn(|_| Point::sample(&mut random));
+            let [a, b] = points.map(|point| point.to_dynamic());
+            let pair = &(&a + &b).scaled(half) + &(&(&a | &b) * &ninf).scaled(half);
+            assert!(cga::pair_sphere(points[0], points[1]).to_dynamic() == pair);
+            let (plane, sphere, circle) =
+                (Plane::sample(&mut random), Sphere::sample(&mut random), Circle::sample(&mut random));
+            let image = |m: Multi| &(&m * &a) * &m;
+            let normalised = |x: &Multi| weight(x).map(|w| x.scaled(Rational::new(1, 1) / w));
+            let mirrored = normalised(&image(plane.to_dynamic())).unwrap();
+            assert!(cga::reflect_in_plane(points[0], plane).to_dynamic() == mirrored);
+            if let Some(inverse) = normalised(&image(sphere.to_dynamic())) {
+                assert!(cga::reflect_in_sphere(points[0], sphere).to_dynamic() == inverse);
+            }
+            let k = circle.to_dynamic();
+            assert!(cga::circle_centre(circle).to_dynamic() == (&(&k * &ninf) * &k).grade(1));
+        }
+    }
+
     #[test]
     fn the_sphere_kernel_agrees_with_the_wedge() {
         let mut random = Random(7);

@@ -47,7 +47,11 @@ pub fn lower(spec: &Spec, source: &KernelSource, way: Sandwich) -> syn::Result<L
         other => (other, false),
     };
     let fault = |message: &str| Error::new(source.body.span(), message);
-    let undefined = || fault("this has no value: a dual needs a pseudoscalar with a square other than 0");
+    let undefined = || {
+        fault(
+            "this has no value: a dual needs a pseudoscalar with a square other than 0, normalised() a weight or a square of one sign",
+        )
+    };
     if source.output == "Scalar" {
         if normalised {
             return Err(fault("a scalar is not normalised: it would be 1 or -1"));

@@ -234,11 +234,11 @@ impl<'a> Lowering<'a> {
         result
     }
 
-    /// `a / sqrt(|<a ~a>|)`. The sign of `a ~a` is that of the first blade with a square, which is right for blades
-    /// whose other terms are null or of the same sign.
+    /// `a / sqrt(|<a ~a>|)`; `None` where `a ~a` is not a sum of squares of one sign, so that its own is not known.
     fn unit(&mut self, a: &Components) -> Option<Components> {
         let square = self.norm_sq(a);
-        let root = self.builder.sqrt(square, "norm");
+        let sign = self.builder.sign_of_squares(square)?;
+        let root = self.builder.sqrt(square.scaled(sign), "norm");
         let inverse = self.builder.quotient(Rational::ONE, root, "inv_norm")?;
         Some(self.scaled(a, inverse))
     }

@@ -184,6 +184,18 @@ impl Builder {
         Some(self.intern(Node::Quotient(factor, id), hint, fingerprint))
     }
 
+    /// The sign, 1 or -1, of a scalar that is a sum of squares with coefficients of one sign, or a constant.
+    #[must_use]
+    pub fn sign_of_squares(&self, value: Scaled) -> Option<Rational> {
+        let sign = |c: Rational| if c.is_negative() { -Rational::ONE } else { Rational::ONE };
+        let Some(id) = value.node else { return Some(sign(value.coefficient)) };
+        let Node::Sum(terms) = &self.entries[id].node else { return None };
+        let first = sign(terms.first()?.coefficient);
+        let squares = |term: &Term| term.factors.is_empty() || matches!(term.factors[..], [x, y] if x == y);
+        let definite = terms.iter().all(|term| sign(term.coefficient) == first && squares(term));
+        definite.then(|| first * sign(value.coefficient))
+    }
+
     /// The square root of a scalar. Its values at the random points are opaque: fresh random numbers that belong to the
     /// radicand, because a residue need not have a root.
     pub fn sqrt(&mut self, radicand: Scaled, hint: &str) -> Scaled {

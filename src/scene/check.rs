@@ -16,6 +16,10 @@ use crate::scene::values::Numbers;
 mod inertia;
 mod relations;
 
+/// The most states of bodies that a run may record: each takes about 400 bytes in the record, the tables and the page
+/// together, so this is 2 GB.
+const MAX_RECORDED: f64 = 5e6;
+
 /// The largest number of steps of a run. One body takes about a microsecond a step, so that a run
 /// of this many lasts at least a quarter of an hour; more is nearly always a slip in `dt_s`.
 pub const MAX_STEPS: f64 = 1e9;
@@ -104,6 +108,23 @@ impl Checker {
             let diagnostic = Diagnostic::new(message).at(span).label("too small for `duration_s`");
             let least = duration / MAX_STEPS;
             self.report(diagnostic.help(format!("use a `dt_s` of at least {least:?}")));
+        } else {
+            self.recorded(scene, duration, steps);
+        }
+    }
+
+    /// Frames are held in memory until the run ends.
+    fn recorded(&mut self, scene: &Scene, duration: f64, steps: f64) {
+        let hz = scene.record_hz.as_ref().map_or(f64::INFINITY, |hz| *hz.get_ref());
+        #[expect(clippy::cast_precision_loss, reason = "a number of bodies")]
+        let bodies = scene.body.len().max(1) as f64;
+        let states = steps.min(duration * hz) * bodies;
+        if states > MAX_RECORDED {
+            let span = scene.record_hz.as_ref().map_or(scene.dt_s.span(), Spanned::span);
+            let message = format!("the run would record {states:.1e} states of bodies, more than {MAX_RECORDED:.0e}");
+            let most = MAX_RECORDED / bodies / duration;
+            let diagnostic = Diagnostic::new(message).at(span).label("too many to hold in memory");
+            self.report(diagnostic.help(format!("set `record_hz` to at most {most:.3}")));
         }
     }
 

@@ -1,7 +1,6 @@
 //! What a figure is worth nothing without: on which machine, when, from which source it was measured.
 
 use serde::Serialize;
-use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Where figures come from.
@@ -56,15 +55,9 @@ impl Provenance {
     }
 }
 
-/// The commit given at build time, or that of the source directory, if it is a repository.
+/// The commit that was built, as the build script found it.
 fn commit() -> Option<String> {
-    if let Some(given) = option_env!("GA_PHYSICS_COMMIT") {
-        return Some(given.into());
-    }
-    let arguments = ["-C", env!("CARGO_MANIFEST_DIR"), "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"];
-    let output = Command::new("git").args(arguments).output().ok().filter(|output| output.status.success())?;
-    let text = String::from_utf8(output.stdout).ok()?;
-    Some(text.trim().to_string()).filter(|text| !text.is_empty())
+    option_env!("GA_PHYSICS_COMMIT").map(str::to_string)
 }
 
 /// The first `model name` of `/proc/cpuinfo`.
