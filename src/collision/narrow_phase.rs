@@ -36,7 +36,7 @@ pub enum Collider<T> {
 pub enum Reach {
     /// Those of bodies that overlap.
     Overlapping,
-    /// Those, and vertices within [`SIMULTANEOUS`] of the surface besides: they are struck at the same instant.
+    /// Those, and vertices within `SIMULTANEOUS` of the surface besides: they are struck at the same instant.
     Simultaneous,
 }
 
