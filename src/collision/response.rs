@@ -159,11 +159,14 @@ fn equalise(
             return false;
         }
         let solution = factor.solve(&DVector::from_fn(size, |row, _| wanted[active[row]]));
-        let shrinking = (0..size).filter(|i| solution[*i] <= 0.0);
-        let share = |i: usize| impulses[active[i]] / (impulses[active[i]] - solution[i]);
-        let step = shrinking.map(share).fold(1.0, f64::min);
+        let shares: Vec<f64> = (0..size)
+            .map(|i| if solution[i] > 0.0 { 1.0 } else { impulses[active[i]] / (impulses[active[i]] - solution[i]) })
+            .collect();
+        let step = shares.iter().copied().fold(1.0, f64::min);
         for (i, index) in active.iter().enumerate() {
-            impulses[*index] += step * (solution[i] - impulses[*index]);
+            // What stops the step is exactly zero after it: left at its rounding, it could stop the next one as well.
+            let stops = solution[i] <= 0.0 && shares[i] <= step;
+            impulses[*index] = if stops { 0.0 } else { impulses[*index] + step * (solution[i] - impulses[*index]) };
         }
         if step >= 1.0 {
             return true;

@@ -1,8 +1,8 @@
 //! Points, flats and rounds of Euclidean space on the conformal algebra; meshes and what is computed from them.
 //!
 //! Generated kernels are unchecked; here they are wrapped: a construction either succeeds or names the degenerate case
-//! ([`Degenerate`]). Every round is built in the local frame of one of its own points ("difference first"). Geometry
-//! knows no time.
+//! ([`Degenerate`]). Every round is built in the local frame of one of its own points ("difference first"); only
+//! [`circle_parts`] takes a blade as it is. Geometry knows no time.
 
 mod degenerate;
 mod disjoint_sets;

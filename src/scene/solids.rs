@@ -45,6 +45,9 @@ pub(super) fn tetrahedron(corners: [[f64; 3]; 4]) -> Result<Mesh, MeshError> {
     Mesh::new(corners.map(Point::from).to_vec(), triangles.to_vec())
 }
 
+/// A lamina is drawn this thick, as a share of its largest half-axis: thin to the eye, and not lost on edge.
+const LEAST_THICKNESS: f64 = 0.02;
+
 /// The half-axes of the solid ellipsoid with this mass and inertia, along the body axes as far as the inertia is
 /// diagonal: from `I_x = m (b² + c²) / 5` and its like, `a² = 5 (I_y + I_z - I_x) / 2m`. A lamina is given a small
 /// thickness, so that it can be seen.
@@ -57,5 +60,5 @@ pub(super) fn ellipsoid_half_axes(mass: f64, inertia: [[f64; 3]; 3]) -> [f64; 3]
     };
     let squares = [0, 1, 2].map(|i| 2.5 * (moments[(i + 1) % 3] + moments[(i + 2) % 3] - moments[i]) / mass);
     let largest = squares.into_iter().fold(0.0, f64::max).sqrt();
-    squares.map(|square| square.max(0.0).sqrt().max(largest * 0.02))
+    squares.map(|square| square.max(0.0).sqrt().max(largest * LEAST_THICKNESS))
 }
