@@ -25,7 +25,7 @@ fn unit_rotor(random: &mut Random) -> g3::Rotor<Rational> {
 }
 
 fn unit_translator(random: &mut Random) -> cga::Translator<Rational> {
-    cga::Translator::from_fn(|_| Rational::new(random.integer(), 2))
+    cga::Translator::from_fn(|_| random.rational())
 }
 
 macro_rules! constants {
@@ -89,6 +89,8 @@ mod conformal {
     type DirectSphere = cga::DirectSphere<Rational>;
     type Pseudoscalar = cga::Pseudoscalar<Rational>;
     type Motor = cga::Motor<Rational>;
+    type Pose = cga::Pose<Rational>;
+    type ConformalRotor = cga::ConformalRotor<Rational>;
     type Even = cga::Even<Rational>;
     type Odd = cga::Odd<Rational>;
     type Multivector = cga::Multivector<Rational>;
@@ -106,12 +108,25 @@ mod conformal {
             unit_translator(random) * unit_rotor(random)
         }
     }
+    impl Sample for Pose {
+        fn sample(random: &mut Random) -> Self {
+            let (t, r) = (unit_translator(random), unit_rotor(random));
+            Self { x: t.x, y: t.y, z: t.z, s: r.s, e23: r.e23, e31: r.e31, e12: r.e12 }
+        }
+    }
+    impl Sample for ConformalRotor {
+        fn sample(random: &mut Random) -> Self {
+            // A transversion 1 + b no after a similarity.
+            let mut transversion = Self::default();
+            [transversion.v1, transversion.v2, transversion.v3] = [(); 3].map(|()| random.rational());
+            let motion = unit_translator(random) * unit_rotor(random);
+            transversion * (motion * Dilator::sample(random))
+        }
+    }
     impl Sample for Dilator {
         fn sample(random: &mut Random) -> Self {
-            // (a + b E)² / (a² - b²)
-            let (a, b) = (5 + random.integer(), random.integer().signum());
-            let norm = a * a - b * b;
-            Self::new(Rational::new(a * a + b * b, norm), Rational::new(2 * a * b, norm))
+            let (a, b) = (5 + random.integer(), 5 + random.integer());
+            Self::new(Rational::new(a, b), Rational::new(b, a))
         }
     }
     impl Sample for Plane {
@@ -134,7 +149,9 @@ mod conformal {
         let image = versor.apply(x);
         let weight = match type_name {
             "Point" | "Sphere" | "Origin" => weight(&image),
-            "Infinity" => Some(image.coefficient(1 << 4)),
+            "Infinity" if [1, 2, 4].iter().all(|blade| image.coefficient(*blade) == Rational::new(0, 1)) => {
+                Some(image.coefficient(1 << 4))
+            }
             _ => None,
         };
         weight.map_or(image.clone(), |weight| image.scaled(Rational::new(1, 1) / weight))

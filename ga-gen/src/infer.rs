@@ -10,7 +10,8 @@ use crate::field::Fingerprint;
 use crate::lower::Components;
 use crate::program::{Builder, Scaled};
 use crate::scalar::Rational;
-use crate::spec::{Spec, Type};
+use crate::spec::Spec;
+use crate::types::Type;
 use std::collections::BTreeMap;
 
 /// The type of a result.
@@ -22,7 +23,7 @@ pub enum Output {
     Type(usize),
 }
 
-/// The smallest type that holds the components, with its fields; ties go to the first declared.
+/// The smallest type that holds the components, with its fields; ties go to unit types, then to the first declared.
 #[must_use]
 pub fn infer(
     spec: &Spec,
@@ -37,7 +38,7 @@ pub fn infer(
         return Some((Output::Scalar, vec![value]));
     }
     let mut candidates: Vec<usize> = (0..spec.types.len()).filter(|i| full_allowed || !spec.is_full(*i)).collect();
-    candidates.sort_by_key(|index| spec.types[*index].fields.len());
+    candidates.sort_by_key(|index| (spec.types[*index].fields.len(), !spec.types[*index].unit));
     candidates.into_iter().find_map(|index| Some((Output::Type(index), fit(spec, builder, components, index)?)))
 }
 
@@ -51,23 +52,32 @@ pub fn fit(spec: &Spec, builder: &mut Builder, components: &Components, index: u
     if components.keys().any(|blade| !ty.coefficients.contains_key(blade)) {
         return None;
     }
-    let fields = solve(builder, components, ty)?;
-    let values: Vec<Fingerprint> = fields.iter().map(|field| builder.fingerprint(*field)).collect();
-    let proved = ty.coefficients.iter().all(|(blade, polynomial)| {
-        let actual = components.get(blade).copied().unwrap_or(Scaled::ZERO);
-        polynomial.fingerprint(&values) == builder.fingerprint(actual)
+    let mark = builder.entries().len();
+    let fields = solve(builder, components, ty).filter(|fields| {
+        let values: Vec<Fingerprint> = fields.iter().map(|field| builder.fingerprint(*field)).collect();
+        let proved = ty.coefficients.iter().all(|(blade, polynomial)| {
+            let actual = components.get(blade).copied().unwrap_or(Scaled::ZERO);
+            polynomial.fingerprint(&values) == builder.fingerprint(actual)
+        });
+        proved && (!ty.unit || is_unit(spec, builder, components))
     });
-    (proved && (!ty.unit || is_unit(spec, builder, components))).then_some(fields)
+    if fields.is_none() {
+        builder.roll_back(mark);
+    }
+    fields
 }
 
-/// Fields from coefficients: stored ones directly, then those that occur linearly in a derived coefficient.
+/// Fields from coefficients: those that are linear in them, then those that occur linearly in a derived coefficient.
 fn solve(builder: &mut Builder, components: &Components, ty: &Type) -> Option<Vec<Scaled>> {
     let actual = |blade: &Blade| components.get(blade).copied().unwrap_or(Scaled::ZERO);
-    let mut fields: Vec<Option<Scaled>> = vec![None; ty.fields.len()];
-    for (blade, polynomial) in &ty.coefficients {
-        if let Some((factor, field)) = polynomial.as_stored() {
-            fields[field] = Some(actual(blade).scaled(factor.recip()?));
-        }
+    let mut fields: Vec<Option<Scaled>> = Vec::new();
+    for (field, readout) in ty.fields.iter().zip(&ty.readouts) {
+        let linear = readout.as_ref().map(|readout| {
+            let terms = readout.terms.iter().map(|(blade, factor)| (*factor, vec![actual(blade)]));
+            let products: Vec<_> = terms.chain([(readout.constant, vec![])]).collect();
+            builder.sum(&products, field)
+        });
+        fields.push(linear);
     }
     for (blade, polynomial) in &ty.coefficients {
         let unknown: Vec<usize> = polynomial.fields().into_iter().filter(|f| fields[*f].is_none()).collect();
@@ -97,8 +107,7 @@ fn is_unit(spec: &Spec, builder: &Builder, components: &Components) -> bool {
             }
         }
     }
-    product.into_iter().all(|(blade, value)| match blade {
-        Blade::SCALAR => value == Fingerprint::constant(Rational::ONE),
-        _ => value.is_zero(),
-    })
+    // A null vector has no scalar part at all.
+    product.remove(&Blade::SCALAR) == Some(Fingerprint::constant(Rational::ONE))
+        && product.into_values().all(Fingerprint::is_zero)
 }

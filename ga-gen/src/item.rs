@@ -62,11 +62,13 @@ pub fn operations(spec: &Spec) -> Vec<Operation> {
         if own(&a) {
             result.extend([Operation::Reverse(a), Operation::NormSq(a)]);
             let grades = ty.grades();
-            if grades.len() > 1 {
+            if grades.len() > 1 && !ty.is_compact() {
                 result.extend(grades.into_iter().map(|grade| Operation::Grade(grade, a)));
             }
         }
-        result.extend([Operation::Dual(a), Operation::Undual(a)]);
+        if !ty.is_compact() {
+            result.extend([Operation::Dual(a), Operation::Undual(a)]);
+        }
         for b in all.clone() {
             // A full multivector meets only its like: anything else is converted first, so that the cost shows.
             if spec.is_full(a) != spec.is_full(b) {
@@ -75,10 +77,18 @@ pub fn operations(spec: &Spec) -> Vec<Operation> {
                 }
                 continue;
             }
-            result.push(Operation::Meet(a, b));
+            // A versor in compact storage multiplies versors and applies to all; for the rest it is converted first.
+            let compact = ty.is_compact() || spec.types[b].is_compact();
+            if !compact {
+                result.push(Operation::Meet(a, b));
+            }
             if own(&a) || own(&b) {
-                let products = [Kind::Geometric, Kind::Outer, Kind::Contraction];
-                result.extend(products.map(|kind| Operation::Product(kind, a, b)));
+                if !compact {
+                    let products = [Kind::Geometric, Kind::Outer, Kind::Contraction];
+                    result.extend(products.map(|kind| Operation::Product(kind, a, b)));
+                } else if ty.versor && spec.types[b].versor {
+                    result.push(Operation::Product(Kind::Geometric, a, b));
+                }
                 if ty.versor {
                     result.push(Operation::Apply(a, b));
                 }
@@ -266,11 +276,16 @@ fn image(spec: &Spec, lowering: &mut Lowering<'_>, components: &Components, x: u
     if let Some(fields) = infer::fit(spec, &mut lowering.builder, components, x) {
         return Some((Output::Type(x), fields));
     }
-    if let Some(weight) = spec.types[x].weight()
-        && let Some(normalised) = kernel::divide_by_weight(lowering, components, weight)
-        && let Some(fields) = infer::fit(spec, &mut lowering.builder, &normalised, x)
-    {
+    let plain = infer::infer(spec, &mut lowering.builder, components, false);
+    let fields = |result: &Option<(Output, Vec<Scaled>)>| result.as_ref().map_or(usize::MAX, |(_, f)| f.len());
+    let Some(normalised) = spec.types[x].weight().and_then(|w| kernel::divide_by_weight(lowering, components, w))
+    else {
+        return plain;
+    };
+    if let Some(fields) = infer::fit(spec, &mut lowering.builder, &normalised, x) {
         return Some((Output::Type(x), fields));
     }
-    infer::infer(spec, &mut lowering.builder, components, false)
+    // The origin goes to a point.
+    let normalised = infer::infer(spec, &mut lowering.builder, &normalised, false);
+    if fields(&normalised) < fields(&plain) { normalised } else { plain }
 }

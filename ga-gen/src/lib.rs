@@ -27,9 +27,12 @@ pub mod parse;
 pub mod polynomial;
 pub mod product;
 pub mod program;
+mod sample;
 pub mod scalar;
 pub mod signature;
 pub mod spec;
+pub mod storage;
+pub mod types;
 
 use proc_macro2::TokenStream;
 pub use syn::Error;

@@ -11,7 +11,8 @@ use crate::product::{self, Kind, blade_product};
 use crate::program::{Builder, Scaled};
 use crate::scalar::Rational;
 use crate::signature::Terms;
-use crate::spec::{Spec, Type};
+use crate::spec::Spec;
+use crate::types::Type;
 use std::collections::BTreeMap;
 
 /// A multivector at lowering: the scalar in front of each blade that is present.

@@ -107,6 +107,13 @@ impl Polynomial {
         result
     }
 
+    /// The same polynomial in fields that are counted from further on.
+    #[must_use]
+    pub fn shifted(&self, by: usize) -> Self {
+        let shift = |fields: &Vec<usize>| fields.iter().map(|field| field + by).collect();
+        Self(self.0.iter().map(|(fields, value)| (shift(fields), *value)).collect())
+    }
+
     /// Product with a number.
     #[must_use]
     pub fn scaled(&self, factor: Rational) -> Self {

@@ -109,6 +109,14 @@ impl Builder {
         self.by_direction.retain(|_, id| *id < mark || keep.iter().any(|value| value.node == Some(*id)));
     }
 
+    /// Forgets the nodes added since there were `mark` of them: a proof that failed leaves no trace in the program.
+    pub fn roll_back(&mut self, mark: usize) {
+        if self.entries.len() > mark {
+            self.entries.truncate(mark);
+            self.by_direction.retain(|_, id| *id < mark);
+        }
+    }
+
     /// Adds an input.
     pub fn input(&mut self, path: &str, fingerprint: Fingerprint) -> Scaled {
         self.intern(Node::Input(path.into()), path, fingerprint)

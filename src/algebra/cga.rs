@@ -31,10 +31,11 @@ crate::algebra! {
     type FlatPoint = [e1_ninf, e2_ninf, e3_ninf, no_ninf];
     /// A general vector: a point, sphere or plane of any weight, or their sum.
     type Round = [e1, e2, e3, no, ninf];
-    /// A translator `1 - t ninf / 2`, which moves by t.
-    type Translator: unit + versor = [s = 1, e1_ninf, e2_ninf, e3_ninf];
-    /// A dilator `exp(alpha/2 e ebar)`, which scales by `exp(-alpha)` about the origin.
-    type Dilator: unit + versor = [s, no_ninf];
+    /// A translator `1 - t ninf / 2`, which moves by t = (x, y, z).
+    type Translator: unit + versor = 1 - (x*e1_ninf + y*e2_ninf + z*e3_ninf)/2;
+    /// A dilator `exp(alpha/2 e ebar)`, which scales by `exp(-alpha)` about the origin: `p = exp(-alpha/2)`,
+    /// `q = exp(alpha/2) = 1/p`. Stored split on the null pair: cosh and sinh would have to be subtracted again.
+    type Dilator: unit + versor = (p + q)/2 + (p - q)/2*no_ninf;
     /// A line in dual form; the axis of a rotation.
     type DualLine = [e23, e31, e12, e1_ninf, e2_ninf, e3_ninf];
     /// A line `A ^ B ^ ninf`: its direction in `ei_no_ninf`, its moment in `eij_ninf`.
@@ -53,6 +54,17 @@ crate::algebra! {
     type Pseudoscalar = [e123_no_ninf];
     /// A unit motor `T R`: rotation and translation.
     type Motor: unit + versor = [s, e23, e31, e12, e1_ninf, e2_ninf, e3_ninf, e123_ninf];
+    /// A factored motor, first the rotation, then the translation: seven numbers, for bodies.
+    type Pose: unit + versor = Translator * Rotor;
+    /// A unit rotor of the conformal algebra: rotations, translations, dilations, transversions. Stored split on the
+    /// null pair, as `p P + q Q + v no - w ninf/2` with `P, Q = (1 +- no_ninf)/2`: p and q even, v and w odd
+    /// multivectors of G(3,0). A translator by t is p = q = 1, w = t; a dilator p, q.
+    type ConformalRotor: unit + versor =
+        (p + q)/2 + (p - q)/2*no_ninf
+        + (p23 + q23)/2*e23 + (p31 + q31)/2*e31 + (p12 + q12)/2*e12
+        + (p23 - q23)/2*e23_no_ninf + (p31 - q31)/2*e31_no_ninf + (p12 - q12)/2*e12_no_ninf
+        + v1*e1_no + v2*e2_no + v3*e3_no + v123*e123_no
+        - (w1*e1_ninf + w2*e2_ninf + w3*e3_ninf + w123*e123_ninf)/2;
     /// An even multivector.
     type Even = [
         s, e23, e31, e12, e1_no, e2_no, e3_no, e1_ninf, e2_ninf, e3_ninf, no_ninf,

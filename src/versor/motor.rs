@@ -9,16 +9,14 @@ impl<T: Scalar> Translator<T> {
     #[inline]
     #[must_use]
     pub fn by(t: Vector<T>) -> Self {
-        let half = T::ratio(-1, 2);
-        Self::new(t.e1 * half, t.e2 * half, t.e3 * half)
+        Self::new(t.e1, t.e2, t.e3)
     }
 
     /// The displacement.
     #[inline]
     #[must_use]
     pub fn displacement(self) -> Vector<T> {
-        let two = T::ratio(-2, 1);
-        Vector::new(self.e1_ninf * two, self.e2_ninf * two, self.e3_ninf * two)
+        Vector::new(self.x, self.y, self.z)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Random, Tested, add, components, cross, dot, length, point, position, scale, sub, vector};
 use ga_physics::algebra::Real;
-use ga_physics::algebra::cga::{self, Dilator, Infinity, Motor, Point, Sphere, Translator};
+use ga_physics::algebra::cga::{self, Dilator, Even, Infinity, Motor, Point, Sphere, Translator};
 use ga_physics::algebra::g3::{self, Bivector, Rotor, Vector};
 use ga_physics::geometry::{inside_is_negative, line_through, plane_through, planes_meet};
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
@@ -119,7 +119,7 @@ fn translators_move_and_motors_turn_first() {
     let x = Point::new(10.0, 20.0, 30.0);
     assert_eq!(position(Translator::by(t).apply(x)), [11.0, 18.0, 34.0]);
     assert_eq!(Translator::by(t).displacement(), t);
-    assert_eq!(Translator::by(t).e1_ninf, -0.5, "T = 1 - t ninf / 2");
+    assert_eq!(Even::from(Translator::by(t)).e1_ninf, -0.5, "T = 1 - t ninf / 2");
     let quarter = Rotor::from_axis_angle(Vector::new(0.0, 0.0, 1.0), FRAC_PI_2).unwrap();
     let motor = Motor::from_parts(t, quarter);
     assert!(near(position(motor.apply(Point::new(1.0, 0.0, 0.0))), [1.0, -1.0, 4.0]), "T R: the rotation first");
@@ -152,11 +152,15 @@ fn motors_carry_planes_spheres_and_lines_with_their_points() {
 fn dilators_scale_by_exp_of_minus_alpha() {
     // exp(alpha/2 e ebar) = cosh(alpha/2) + sinh(alpha/2) e ebar, and e ebar = -no_ninf.
     let alpha: f64 = 0.7;
-    let dilator = Dilator::new((alpha / 2.0).cosh(), -(alpha / 2.0).sinh());
+    let dilator = Dilator::new((-alpha / 2.0).exp(), (alpha / 2.0).exp());
+    let wedge = Even::from(dilator);
+    let expected = [(alpha / 2.0).cosh(), -(alpha / 2.0).sinh()];
+    assert!((wedge.s - expected[0]).abs() < CLOSE && (wedge.no_ninf - expected[1]).abs() < CLOSE);
     let x = Point::new(1.0, 2.0, -3.0);
     assert!(near(position(dilator.apply(x)), scale([1.0, 2.0, -3.0], (-alpha).exp())));
     let made = Dilator::by((-alpha).exp()).unwrap();
-    assert!((made.s - dilator.s).abs() < CLOSE && (made.no_ninf - dilator.no_ninf).abs() < CLOSE);
+    assert!((made.p - dilator.p).abs() < CLOSE && (made.q - dilator.q).abs() < CLOSE);
+    assert!((made.factor() - (-alpha).exp()).abs() < CLOSE);
     for factor in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert_eq!(Dilator::by(factor), None, "{factor}");
     }

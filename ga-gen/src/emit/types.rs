@@ -6,7 +6,8 @@ use crate::item;
 use crate::polynomial::Polynomial;
 use crate::scalar::Rational;
 use crate::signature::Kind;
-use crate::spec::{Spec, Type};
+use crate::spec::Spec;
+use crate::types::Type;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use std::collections::BTreeMap;
@@ -236,9 +237,8 @@ fn unit_operations(spec: &Spec, index: usize, ty: &Type) -> TokenStream {
             }
         }
     };
-    let scalar_is_constant = ty.coefficients.get(&Blade::SCALAR).is_some_and(|c| c.as_constant().is_some());
-    if !scalar_is_constant {
-        // Where the scalar part is fixed to 1, minus the versor is not of the type.
+    if ty.negates() {
+        // Where a coefficient is fixed or a product of numbers, minus the versor is not of the type, or not this.
         tokens.extend(quote! {
             impl<T: ::ga_physics::algebra::Scalar> ::core::ops::Neg for #name<T> {
                 type Output = Self;
@@ -248,8 +248,7 @@ fn unit_operations(spec: &Spec, index: usize, ty: &Type) -> TokenStream {
         });
     }
     if ty.versor {
-        let identity =
-            ty.fields.iter().map(|field| if field == "s" { quote!(T::ratio(1, 1)) } else { quote!(T::ratio(0, 1)) });
+        let identity = ty.identity().into_iter().map(rational);
         tokens.extend(quote! {
             impl<T: ::ga_physics::algebra::Scalar> Default for #name<T> {
                 /// The identity.

@@ -232,7 +232,7 @@ fn single(value: f64) -> f32 {
 }
 
 fn translator(t: Vector) -> Translator {
-    Translator::new(-0.5 * t.e1, -0.5 * t.e2, -0.5 * t.e3)
+    Translator::by(t)
 }
 
 /// The quaternion `w + xi + yj + zk` is the rotor `w - x e23 - y e31 - z e12`.
