@@ -9,10 +9,9 @@ use crate::blade::Blade;
 use crate::field::Fingerprint;
 use crate::lower::Components;
 use crate::program::{Builder, Scaled};
-use crate::scalar::Rational;
 use crate::spec::Spec;
 use crate::types::Type;
-use std::collections::BTreeMap;
+use crate::values;
 
 /// The type of a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -48,18 +47,22 @@ fn as_scalar(components: &Components) -> Option<Scaled> {
 
 /// The fields of a type that hold the components, if it holds them.
 pub fn fit(spec: &Spec, builder: &mut Builder, components: &Components, index: usize) -> Option<Vec<Scaled>> {
-    let ty = &spec.types[index];
+    fit_type(spec, builder, components, &spec.types[index])
+}
+
+/// The same for a type that need not be one of the algebra's own list.
+pub fn fit_type(spec: &Spec, builder: &mut Builder, components: &Components, ty: &Type) -> Option<Vec<Scaled>> {
     if components.keys().any(|blade| !ty.coefficients.contains_key(blade)) {
         return None;
     }
     let mark = builder.entries().len();
     let fields = solve(builder, components, ty).filter(|fields| {
-        let values: Vec<Fingerprint> = fields.iter().map(|field| builder.fingerprint(*field)).collect();
+        let solved: Vec<Fingerprint> = fields.iter().map(|field| builder.fingerprint(*field)).collect();
         let proved = ty.coefficients.iter().all(|(blade, polynomial)| {
             let actual = components.get(blade).copied().unwrap_or(Scaled::ZERO);
-            polynomial.fingerprint(&values) == builder.fingerprint(actual)
+            polynomial.fingerprint(&solved) == builder.fingerprint(actual)
         });
-        proved && (!ty.unit || is_unit(spec, builder, components))
+        proved && (!ty.unit || values::is_unit(&spec.signature, &values::of(builder, components)))
     });
     if fields.is_none() {
         builder.roll_back(mark);
@@ -91,23 +94,4 @@ fn solve(builder: &mut Builder, components: &Components, ty: &Type) -> Option<Ve
         fields[field] = Some(builder.sum(&products, &ty.fields[field]));
     }
     fields.into_iter().collect()
-}
-
-/// `x ~x = 1` on the manifold of the inputs.
-fn is_unit(spec: &Spec, builder: &Builder, components: &Components) -> bool {
-    let mut product: BTreeMap<Blade, Fingerprint> = BTreeMap::new();
-    for (a, x) in components {
-        for (b, y) in components {
-            let reverse = if b.reverse_is_negative() { -Rational::ONE } else { Rational::ONE };
-            let value = builder.fingerprint(*x).times(builder.fingerprint(*y));
-            for (blade, c) in spec.signature.geometric(*a, *b) {
-                let term = value.times(Fingerprint::constant(c * reverse));
-                let sum = product.entry(blade).or_insert(Fingerprint::constant(Rational::ZERO));
-                *sum = sum.plus(term);
-            }
-        }
-    }
-    // A null vector has no scalar part at all.
-    product.remove(&Blade::SCALAR) == Some(Fingerprint::constant(Rational::ONE))
-        && product.into_values().all(Fingerprint::is_zero)
 }

@@ -1,13 +1,14 @@
 //! The items of an algebra: every operation that exists for some types, compiled.
 
+use crate::alternatives::{Plan, cheapest};
 use crate::expression::Expression;
 use crate::infer::{self, Output};
 use crate::kernel;
-use crate::lower::{Components, Lowering, Sandwich, may_expand};
+use crate::lower::{Components, Lowering, Schedule};
 use crate::optimise::optimise;
 use crate::product::Kind;
-use crate::program::{Builder, Program, Scaled};
-use crate::signature::Kind as Metric;
+use crate::program::{Program, Scaled};
+use crate::scalar::Rational;
 use crate::spec::Spec;
 use syn::spanned::Spanned;
 
@@ -109,25 +110,20 @@ pub fn operations(spec: &Spec) -> Vec<Operation> {
 /// A kernel that is wrong, or a unit type that cannot be sampled.
 pub fn compile(spec: &Spec, operation: Operation) -> syn::Result<Option<Item>> {
     let (name, parameters) = describe(spec, operation);
-    let candidates: Vec<(Builder, Output, Vec<Scaled>)> = match operation {
-        Operation::Kernel(index) => {
-            let source = &spec.kernels[index];
-            let lowered = kernel::lower(spec, source, Sandwich::Plain)?;
-            vec![lowered]
-        }
-        Operation::Apply(v, x) => ways(spec, v, x)?
-            .into_iter()
-            .filter_map(|way| lower_simple(spec, operation, &parameters, way).transpose())
-            .collect::<syn::Result<_>>()?,
-        _ => lower_simple(spec, operation, &parameters, Sandwich::Plain)?.into_iter().collect(),
+    let lower = |plan: Plan| -> syn::Result<Option<((Output, Program), Plan)>> {
+        let mut lowering = Lowering::new(spec, plan, Schedule::Stable);
+        let lowered = match operation {
+            Operation::Kernel(index) => Some(kernel::lower(&mut lowering, &spec.kernels[index])?),
+            _ => lower_simple(&mut lowering, operation, &parameters)?,
+        };
+        let (builder, plan) = lowering.finish();
+        Ok(lowered.map(|(output, fields)| {
+            let outputs: Vec<(String, Scaled)> = field_names(spec, output).into_iter().zip(fields).collect();
+            ((output, optimise(&builder, &outputs)), plan)
+        }))
     };
-    let programs = candidates.into_iter().map(|(builder, output, fields)| {
-        let names = field_names(spec, output);
-        let outputs: Vec<(String, Scaled)> = names.into_iter().zip(fields).collect();
-        (output, optimise(&builder, &outputs))
-    });
-    let best = programs.min_by_key(|(_, program)| (program.counts().div, program.counts().operations()));
-    let best = best.map(|(output, program)| Item { operation, name, parameters, output, program });
+    let best = cheapest(lower, |(_, program)| program)?;
+    let best = best.map(|(output, program)| Item { operation, name, parameters: parameters.clone(), output, program });
     match (best.as_ref().and_then(|item| item.program.oversized()), operation) {
         (None, _) => Ok(best),
         (Some(constant), Operation::Kernel(index)) => {
@@ -142,7 +138,7 @@ pub fn compile(spec: &Spec, operation: Operation) -> syn::Result<Option<Item>> {
 /// The coefficients of `a ~a` for a type that declares them to be those of 1, one output a blade.
 #[must_use]
 pub fn unit_defects(spec: &Spec, ty: usize) -> Program {
-    let mut lowering = Lowering::new(spec, Sandwich::Plain);
+    let mut lowering = Lowering::new(spec, Plan::default(), Schedule::Stable);
     lowering.add_raw_parameter("a", ty);
     let a = lowering.parameters[0].clone();
     let product = lowering.product(Kind::Geometric, &a, &crate::lower::reversed(&a));
@@ -208,52 +204,24 @@ fn expression(operation: Operation) -> Expression {
     }
 }
 
-/// The ways worth trying for a sandwich of two types.
-fn ways(spec: &Spec, v: usize, x: usize) -> syn::Result<Vec<Sandwich>> {
-    let count = |index: usize| spec.types[index].coefficients.len();
-    let mut ways = vec![Sandwich::Plain];
-    if may_expand(count(v), count(x)) {
-        ways.push(Sandwich::Expanded);
-    }
-    if is_isometry(spec, v)? {
-        ways.push(Sandwich::Commutator);
-    }
-    Ok(ways)
-}
-
-/// Does the versor keep every point at infinity, so that it neither scales nor inverts? Then `x + [v, x] ~v` adds no
-/// large number that it takes away again.
-fn is_isometry(spec: &Spec, v: usize) -> syn::Result<bool> {
-    let mut lowering = Lowering::new(spec, Sandwich::Plain);
-    lowering.add_parameter("a", v)?;
-    let versor = lowering.parameters[0].clone();
-    let pairs = spec.signature.kinds().iter().enumerate().filter(|(_, kind)| **kind == Metric::PairSecond);
-    let fixed: Vec<bool> = pairs
-        .map(|(index, _)| {
-            let infinity = Components::from([(crate::blade::Blade::vector(index), Scaled::ONE)]);
-            lowering.sandwich_by(Sandwich::Plain, &versor, &infinity) == infinity
-        })
-        .collect();
-    Ok(fixed.into_iter().all(|fixed| fixed))
-}
-
 /// Lowers everything but kernels.
 fn lower_simple(
-    spec: &Spec,
+    lowering: &mut Lowering<'_>,
     operation: Operation,
     parameters: &[(String, usize)],
-    way: Sandwich,
-) -> syn::Result<Option<kernel::Lowered>> {
-    let mut lowering = Lowering::new(spec, way);
+) -> syn::Result<Option<(Output, Vec<Scaled>)>> {
+    let spec = lowering.spec;
     if let Operation::NormSq(ty) = operation {
         lowering.add_raw_parameter("a", ty);
         let input = lowering.parameters[0].clone();
         let value = lowering.norm_sq(&input);
-        let known = value.node.is_some();
-        return Ok(known.then(|| (lowering.builder, Output::Scalar, vec![value])));
+        return Ok(value.node.is_some().then(|| (Output::Scalar, vec![value])));
     }
     for (name, ty) in parameters {
         lowering.add_parameter(name, *ty)?;
+    }
+    if let Some(result) = factored(lowering, operation, parameters) {
+        return Ok(Some(result));
     }
     let Some(components) = lowering.lower(&expression(operation)) else {
         return Ok(None);
@@ -262,13 +230,26 @@ fn lower_simple(
         Operation::Embed(_, target) => {
             infer::fit(spec, &mut lowering.builder, &components, target).map(|fields| (Output::Type(target), fields))
         }
-        Operation::Apply(_, x) => image(spec, &mut lowering, &components, x),
+        Operation::Apply(_, x) => image(spec, lowering, &components, x),
         _ => {
             let full = parameters.iter().all(|(_, ty)| spec.is_full(*ty));
             infer::infer(spec, &mut lowering.builder, &components, full)
         }
     };
-    Ok(result.map(|(output, fields)| (lowering.builder, output, fields)))
+    Ok(result)
+}
+
+/// A product or reverse of factored versors, as a factored versor.
+fn factored(
+    lowering: &mut Lowering<'_>,
+    operation: Operation,
+    parameters: &[(String, usize)],
+) -> Option<(Output, Vec<Scaled>)> {
+    let (Operation::Product(Kind::Geometric, ..) | Operation::Reverse(_)) = operation else { return None };
+    let types = &lowering.spec.types;
+    let ty = parameters.iter().map(|(_, ty)| *ty).find(|ty| types[*ty].factors.is_some())?;
+    let fields = lowering.word_fields(&expression(operation), ty)?;
+    Some((Output::Type(ty), fields))
 }
 
 /// The image of a type under a versor: of that type itself if it holds it, if need be after division by the weight.
@@ -276,12 +257,15 @@ fn image(spec: &Spec, lowering: &mut Lowering<'_>, components: &Components, x: u
     if let Some(fields) = infer::fit(spec, &mut lowering.builder, components, x) {
         return Some((Output::Type(x), fields));
     }
+    // A unit versor keeps norms, so the squared radius of the image is known without differences of large squares.
+    let norm_sq = lowering.norm_sq(&lowering.parameters[1].clone());
     let plain = infer::infer(spec, &mut lowering.builder, components, false);
     let fields = |result: &Option<(Output, Vec<Scaled>)>| result.as_ref().map_or(usize::MAX, |(_, f)| f.len());
-    let Some(normalised) = spec.types[x].weight().and_then(|w| kernel::divide_by_weight(lowering, components, w))
-    else {
+    let weight = spec.types[x].weight();
+    let Some((normalised, inverse)) = weight.and_then(|w| kernel::divide_by_weight(lowering, components, w)) else {
         return plain;
     };
+    lowering.builder.sum(&[(Rational::ONE, vec![norm_sq, inverse, inverse])], "kept");
     if let Some(fields) = infer::fit(spec, &mut lowering.builder, &normalised, x) {
         return Some((Output::Type(x), fields));
     }

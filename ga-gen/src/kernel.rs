@@ -7,10 +7,11 @@
 use crate::blade::Blade;
 use crate::expression::Expression;
 use crate::infer::{self, Output};
-use crate::lower::{Components, Lowering, Sandwich, reversed};
+use crate::lower::{Components, Lowering, reversed};
 use crate::parse::{Frame, KernelSource};
 use crate::product::Kind;
-use crate::program::{Builder, Scaled};
+use crate::program::Scaled;
+use crate::sandwich::Sandwich;
 use crate::scalar::Rational;
 use crate::signature::Kind as Metric;
 use crate::spec::Spec;
@@ -19,15 +20,12 @@ use std::collections::BTreeMap;
 use syn::spanned::Spanned;
 use syn::{BinOp, Error, Expr, Ident, UnOp};
 
-/// A lowered kernel: the graph, the type of the result and its fields.
-pub type Lowered = (Builder, Output, Vec<Scaled>);
-
-/// Lowers a kernel, computing sandwiches in the given way.
+/// Lowers a kernel: the type of the result and its fields.
 ///
 /// # Errors
 /// A sentence on the token at fault: unknown names, unsupported syntax, a result that the declared type does not hold.
-pub fn lower(spec: &Spec, source: &KernelSource, way: Sandwich) -> syn::Result<Lowered> {
-    let mut lowering = Lowering::new(spec, way);
+pub fn lower(lowering: &mut Lowering<'_>, source: &KernelSource) -> syn::Result<(Output, Vec<Scaled>)> {
+    let spec = lowering.spec;
     let mut types = Vec::new();
     for (position, (name, ty)) in source.parameters.iter().enumerate() {
         if source.parameters[..position].iter().any(|(earlier, _)| earlier == name) {
@@ -41,7 +39,7 @@ pub fn lower(spec: &Spec, source: &KernelSource, way: Sandwich) -> syn::Result<L
         let message = "a kernel needs a parameter that stores numbers: without one it has no scalar to compute in";
         return Err(Error::new(source.name.span(), message));
     }
-    let translator = enter_frame(&mut lowering, spec, source, &types)?;
+    let translator = enter_frame(lowering, spec, source, &types)?;
     let expression = Reader { spec, source }.expression(&source.body)?;
     let (body, normalised) = match expression {
         Expression::Normalised(inner) => (*inner, true),
@@ -65,7 +63,7 @@ pub fn lower(spec: &Spec, source: &KernelSource, way: Sandwich) -> syn::Result<L
         let misfit =
             || Error::new(source.output.span(), format!("the result is no scalar: {}", describe(spec, &components)));
         let value = value.ok_or_else(misfit)?;
-        return Ok((lowering.builder, Output::Scalar, vec![value]));
+        return Ok((Output::Scalar, vec![value]));
     }
     let index = find_type(spec, &source.output)?;
     let weight = spec.types[index].weight();
@@ -78,8 +76,8 @@ pub fn lower(spec: &Spec, source: &KernelSource, way: Sandwich) -> syn::Result<L
         return Err(fault("the result is identically zero"));
     }
     if let (true, Some(weight)) = (normalised, weight) {
-        components = divide_by_weight(&mut lowering, &components, weight)
-            .ok_or_else(|| fault("the weight of the result is identically zero"))?;
+        let zero = || fault("the weight of the result is identically zero");
+        (components, _) = divide_by_weight(lowering, &components, weight).ok_or_else(zero)?;
     }
     let misfit = || {
         Error::new(
@@ -93,7 +91,7 @@ pub fn lower(spec: &Spec, source: &KernelSource, way: Sandwich) -> syn::Result<L
         let world = lowering.sandwich_by(Sandwich::Commutator, &translator, &local);
         fields = infer::fit(spec, &mut lowering.builder, &world, index).ok_or_else(misfit)?;
     }
-    Ok((lowering.builder, Output::Type(index), fields))
+    Ok((Output::Type(index), fields))
 }
 
 fn describe(spec: &Spec, components: &Components) -> String {
@@ -108,13 +106,13 @@ fn find_type(spec: &Spec, name: &Ident) -> syn::Result<usize> {
     })
 }
 
-/// Divides by the coefficient that the type fixes. One division: the reciprocal carries the factor that most stored
+/// Divides by the coefficient that the type fixes; also returns by what it multiplied. One division: the reciprocal carries the factor that most stored
 /// coefficients share.
 pub fn divide_by_weight(
     lowering: &mut Lowering<'_>,
     components: &Components,
     weight: (Blade, Rational),
-) -> Option<Components> {
+) -> Option<(Components, Scaled)> {
     let (blade, constant) = weight;
     let weight = components.get(&blade)?.scaled(constant.recip()?);
     let inverse = weight.coefficient.recip()?;
@@ -125,7 +123,7 @@ pub fn divide_by_weight(
     let share = shares.into_iter().max_by_key(|(_, count)| *count).map_or(Rational::ONE, |(share, _)| share);
     let reciprocal = lowering.builder.quotient(share * weight.coefficient, weight, "inv_weight")?;
     let factor = reciprocal.scaled((share * weight.coefficient).recip()?);
-    Some(lowering.scaled(components, factor))
+    Some((lowering.scaled(components, factor), factor))
 }
 
 /// Moves every parameter into the frame; returns the translator that leads back.

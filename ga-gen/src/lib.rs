@@ -12,9 +12,11 @@
 //!
 //! An ordinary library: it knows no physics and needs no compiler, so inspection and tests call it directly.
 
+pub mod alternatives;
 pub mod blade;
 pub mod emit;
 pub mod expression;
+pub mod factored;
 pub mod field;
 pub mod formula;
 pub mod infer;
@@ -28,11 +30,14 @@ pub mod polynomial;
 pub mod product;
 pub mod program;
 mod sample;
+pub mod sandwich;
 pub mod scalar;
 pub mod signature;
 pub mod spec;
+pub mod split;
 pub mod storage;
 pub mod types;
+pub mod values;
 
 use proc_macro2::TokenStream;
 pub use syn::Error;

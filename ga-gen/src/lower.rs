@@ -1,9 +1,10 @@
 //! From multivector expressions to scalar nodes, product by product.
 //!
 //! Stepwise lowering: the components of every intermediate multivector are made nodes in normal form, so equal minors
-//! of a wedge meet by themselves. A sandwich has several lowerings ([`Sandwich`]); the caller tries each and keeps the
-//! cheapest program.
+//! of a wedge meet by themselves. Some products have several lowerings; the caller tries them and keeps the cheapest
+//! program (see [`crate::alternatives`]).
 
+use crate::alternatives::Plan;
 use crate::blade::Blade;
 use crate::expression::Expression;
 use crate::field::Fingerprint;
@@ -18,36 +19,49 @@ use std::collections::BTreeMap;
 /// A multivector at lowering: the scalar in front of each blade that is present.
 pub type Components = BTreeMap<Blade, Scaled>;
 
-/// A way to compute `v x ~v`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sandwich {
-    /// `(v x) ~v`.
-    Plain,
-    /// `x + (v x - x v) ~v`, for unit versors without dilation only: there, x is added and cancelled.
-    Commutator,
-    /// All terms at once, for tiny versors, where terms cancel.
-    Expanded,
+/// How products may be computed where that changes digits, not only operations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Schedule {
+    /// By the table of blades; in a split basis only where the operands are stored split, so that no digit is lost.
+    #[default]
+    Stable,
+    /// In a split basis wherever it is cheaper: exact in the algebra, but only as accurate as the largest coefficient.
+    Split,
 }
 
-/// Expanding beyond this many triple products is refused.
-const EXPANSION_CAP: usize = 128;
-
 /// Lowers expressions over given parameters.
+///
+/// Where there are several ways to compute something, the plan says which one to take: see [`crate::alternatives`].
 pub struct Lowering<'a> {
-    spec: &'a Spec,
+    pub(crate) spec: &'a Spec,
     /// The graph that grows.
     pub builder: Builder,
     /// The components of each parameter.
     pub parameters: Vec<Components>,
-    sandwich: Sandwich,
+    /// The components of the two factors of each parameter of a factored type.
+    pub factors: Vec<Option<[Components; 2]>>,
+    schedule: Schedule,
+    plan: Plan,
     products: usize,
 }
 
 impl<'a> Lowering<'a> {
     /// A lowering without parameters.
     #[must_use]
-    pub fn new(spec: &'a Spec, sandwich: Sandwich) -> Self {
-        Self { spec, builder: Builder::default(), parameters: vec![], sandwich, products: 0 }
+    pub fn new(spec: &'a Spec, plan: Plan, schedule: Schedule) -> Self {
+        let (builder, parameters, factors) = (Builder::default(), vec![], vec![]);
+        Self { spec, builder, parameters, factors, schedule, plan, products: 0 }
+    }
+
+    /// The graph, and the choices that were made.
+    #[must_use]
+    pub fn finish(self) -> (Builder, Plan) {
+        (self.builder, self.plan)
+    }
+
+    /// Which of several ways to take.
+    pub fn choose(&mut self, ways: usize) -> usize {
+        self.plan.choose(ways)
     }
 
     /// The next parameter: a value of a type, reachable by a name.
@@ -72,8 +86,14 @@ impl<'a> Lowering<'a> {
         let ty = &self.spec.types[ty];
         let fields: Vec<Scaled> =
             ty.fields.iter().zip(samples).map(|(field, f)| self.builder.input(&format!("{name}.{field}"), f)).collect();
+        let factors = ty.factors.as_ref().map(|factors| {
+            let [a, b] = &**factors;
+            let (left, right) = fields.split_at(a.fields.len());
+            [self.of_type(a, left, name), self.of_type(b, right, name)]
+        });
         let components = self.of_type(ty, &fields, name);
         self.parameters.push(components);
+        self.factors.push(factors);
     }
 
     /// The components of a type with given fields.
@@ -120,8 +140,16 @@ impl<'a> Lowering<'a> {
                 self.lower(a)?.into_iter().filter(|(blade, _)| blade.grade() == *grade).collect()
             }
             Expression::Sandwich(v, x) => {
-                let (v, x) = (self.lower(v)?, self.lower(x)?);
-                self.sandwich(&v, &x)
+                let x = self.lower(x)?;
+                if let Expression::Input(index) = **v
+                    && let Some([a, b]) = self.factors.get(index)?.clone()
+                {
+                    let inner = self.sandwich(&b, &x);
+                    self.sandwich(&a, &inner)
+                } else {
+                    let v = self.lower(v)?;
+                    self.sandwich(&v, &x)
+                }
             }
             Expression::Normalised(a) => {
                 let a = self.lower(a)?;
@@ -130,7 +158,13 @@ impl<'a> Lowering<'a> {
         })
     }
 
-    fn hint(&mut self) -> String {
+    /// What may be traded for fewer operations.
+    #[must_use]
+    pub fn schedule(&self) -> Schedule {
+        self.schedule
+    }
+
+    pub(crate) fn hint(&mut self) -> String {
         const LETTERS: [&str; 6] = ["t", "u", "v", "w", "p", "q"];
         let (round, letter) = (self.products / LETTERS.len(), LETTERS[self.products % LETTERS.len()]);
         self.products += 1;
@@ -138,7 +172,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// Collects weighted products of scalars into components in normal form.
-    fn collect(&mut self, terms: Vec<(Blade, Rational, Vec<Scaled>)>) -> Components {
+    pub(crate) fn collect(&mut self, terms: Vec<(Blade, Rational, Vec<Scaled>)>) -> Components {
         let hint = self.hint();
         let mut sums: BTreeMap<Blade, Vec<(Rational, Vec<Scaled>)>> = BTreeMap::new();
         for (blade, coefficient, scalars) in terms {
@@ -154,18 +188,30 @@ impl<'a> Lowering<'a> {
         components
     }
 
-    fn terms(&self, kind: Kind, a: &Components, b: &Components, sign: Rational) -> Vec<(Blade, Rational, Vec<Scaled>)> {
+    pub(crate) fn terms(
+        &self,
+        kind: Kind,
+        a: &Components,
+        b: &Components,
+        sign: Rational,
+    ) -> Vec<(Blade, Rational, Vec<Scaled>)> {
         let pairs = a.iter().flat_map(|x| b.iter().map(move |y| (x, y)));
         pairs
             .flat_map(|((blade_a, x), (blade_b, y))| {
                 let terms = blade_product(&self.spec.signature, kind, *blade_a, *blade_b);
-                terms.into_iter().map(move |(blade, c)| (blade, c * sign, vec![*x, *y]))
+                terms.map(move |(blade, c)| (blade, c * sign, vec![*x, *y]))
             })
             .collect()
     }
 
     /// A bilinear product.
     pub fn product(&mut self, kind: Kind, a: &Components, b: &Components) -> Components {
+        if kind == Kind::Geometric
+            && let Some(depth) = self.split_depth(a, b)
+            && let Some(product) = self.split_product(depth, a, b)
+        {
+            return product;
+        }
         let terms = self.terms(kind, a, b, Rational::ONE);
         self.collect(terms)
     }
@@ -197,44 +243,6 @@ impl<'a> Lowering<'a> {
         self.spec.pseudoscalar.filter(|i| !i.square.is_zero())
     }
 
-    fn sandwich(&mut self, v: &Components, x: &Components) -> Components {
-        self.sandwich_by(self.sandwich, v, x)
-    }
-
-    /// `v x ~v`, restricted to the grades of x, computed in a given way.
-    pub fn sandwich_by(&mut self, way: Sandwich, v: &Components, x: &Components) -> Components {
-        let reverse = reversed(v);
-        let mut result = match way {
-            Sandwich::Plain => {
-                let half = self.product(Kind::Geometric, v, x);
-                self.product(Kind::Geometric, &half, &reverse)
-            }
-            Sandwich::Commutator => {
-                let mut terms = self.terms(Kind::Geometric, v, x, Rational::ONE);
-                terms.extend(self.terms(Kind::Geometric, x, v, -Rational::ONE));
-                let commutator = self.collect(terms);
-                let mut terms = self.terms(Kind::Geometric, &commutator, &reverse, Rational::ONE);
-                terms.extend(x.iter().map(|(blade, value)| (*blade, Rational::ONE, vec![*value])));
-                terms.retain(|(blade, ..)| x.keys().any(|known| known.grade() == blade.grade()));
-                self.collect(terms)
-            }
-            Sandwich::Expanded => {
-                let half = self.terms(Kind::Geometric, v, x, Rational::ONE);
-                let mut terms = Vec::new();
-                for (blade_a, c, scalars) in half {
-                    for (blade_b, y) in &reverse {
-                        for (blade, d) in self.spec.signature.geometric(blade_a, *blade_b) {
-                            terms.push((blade, c * d, [&scalars[..], &[*y]].concat()));
-                        }
-                    }
-                }
-                self.collect(terms)
-            }
-        };
-        result.retain(|blade, _| x.keys().any(|known| known.grade() == blade.grade()));
-        result
-    }
-
     /// `a / sqrt(|<a ~a>|)`; `None` where `a ~a` is not a sum of squares of one sign, so that its own is not known.
     fn unit(&mut self, a: &Components) -> Option<Components> {
         let square = self.norm_sq(a);
@@ -255,12 +263,6 @@ impl<'a> Lowering<'a> {
         let terms = a.iter().map(|(blade, x)| (*blade, Rational::ONE, vec![*x, factor]));
         self.collect(terms.collect())
     }
-}
-
-/// Whether expanding `v x ~v` at once stays small.
-#[must_use]
-pub fn may_expand(v: usize, x: usize) -> bool {
-    v * v * x <= EXPANSION_CAP
 }
 
 /// The reverse.

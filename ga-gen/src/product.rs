@@ -18,16 +18,13 @@ pub enum Kind {
 
 /// The product of two basis blades.
 #[must_use]
-pub fn blade_product(signature: &Signature, kind: Kind, a: Blade, b: Blade) -> Terms {
-    let wanted = match kind {
-        Kind::Geometric => None,
-        Kind::Outer => Some(a.grade() + b.grade()),
-        Kind::Contraction if a.grade() > b.grade() => return vec![],
-        Kind::Contraction => Some(b.grade() - a.grade()),
+pub fn blade_product(signature: &Signature, kind: Kind, a: Blade, b: Blade) -> impl Iterator<Item = (Blade, Rational)> {
+    let survives = move |blade: Blade| match kind {
+        Kind::Geometric => true,
+        Kind::Outer => blade.grade() == a.grade() + b.grade(),
+        Kind::Contraction => blade.grade() + a.grade() == b.grade(),
     };
-    let mut terms = signature.geometric(a, b);
-    terms.retain(|(blade, _)| wanted.is_none_or(|grade| blade.grade() == grade));
-    terms
+    signature.geometric(a, b).iter().copied().filter(move |(blade, _)| survives(*blade))
 }
 
 /// `I`, as a basis blade of highest grade with its sign.
@@ -65,7 +62,6 @@ impl Pseudoscalar {
     }
 }
 
-fn scaled(mut terms: Terms, factor: Rational) -> Terms {
-    terms.iter_mut().for_each(|(_, c)| *c = *c * factor);
-    terms
+fn scaled(terms: &[(Blade, Rational)], factor: Rational) -> Terms {
+    terms.iter().map(|(blade, c)| (*blade, *c * factor)).collect()
 }

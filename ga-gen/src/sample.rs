@@ -99,8 +99,8 @@ impl Spec {
         for (blade_a, x) in a {
             for (blade_b, y) in b {
                 for (blade, c) in self.signature.geometric(*blade_a, *blade_b) {
-                    let sum = result.entry(blade).or_insert(Residue::ZERO);
-                    *sum = sum.plus(x.times(*y).times(c.into()));
+                    let sum = result.entry(*blade).or_insert(Residue::ZERO);
+                    *sum = sum.plus(x.times(*y).times((*c).into()));
                 }
             }
         }

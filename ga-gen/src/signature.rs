@@ -2,6 +2,7 @@
 
 use crate::blade::{Blade, swaps_are_odd};
 use crate::scalar::Rational;
+use std::cell::OnceCell;
 
 /// How a basis vector multiplies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,10 +16,12 @@ pub enum Kind {
 }
 
 /// Named basis vectors with their metric. At most [`Signature::MAX_DIMENSION`] of them.
-#[derive(Clone, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Signature {
     names: Vec<String>,
     kinds: Vec<Kind>,
+    /// All products of basis blades, made when the first is asked for: an algebra asks for each some thousand times.
+    table: OnceCell<Vec<Terms>>,
 }
 
 /// A sum of at most two basis blades: a product within one null pair has two terms.
@@ -32,12 +35,14 @@ impl Signature {
     pub fn push(&mut self, name: String, square: i8) {
         self.names.push(name);
         self.kinds.push(Kind::Square(square));
+        self.table.take();
     }
 
     /// Adds a null pair `(o, i)` with `o . i = inner`.
     pub fn push_pair(&mut self, first: String, second: String, inner: i8) {
         self.names.extend([first, second]);
         self.kinds.extend([Kind::PairFirst(inner), Kind::PairSecond]);
+        self.table.take();
     }
 
     /// The number of basis vectors.
@@ -113,11 +118,19 @@ impl Signature {
     }
 
     /// The geometric product of two basis blades.
-    ///
+    #[must_use]
+    pub fn geometric(&self, a: Blade, b: Blade) -> &[(Blade, Rational)] {
+        let size = 1 << self.dimension();
+        let table = self.table.get_or_init(|| {
+            let pairs = (0..size).flat_map(|a| (0..size).map(move |b| (a, b)));
+            pairs.map(|(a, b)| self.multiply(Blade(a), Blade(b))).collect()
+        });
+        &table[(a.0 * size + b.0) as usize]
+    }
+
     /// The basis falls into mutually orthogonal blocks (single vectors and null pairs), so the product is that of the
     /// blocks, with the sign of sorting the factors of `b` past those of `a`.
-    #[must_use]
-    pub fn geometric(&self, a: Blade, b: Blade) -> Terms {
+    fn multiply(&self, a: Blade, b: Blade) -> Terms {
         let mut terms: Terms = vec![(Blade::SCALAR, Rational::ONE)];
         let mut odd = false;
         for (index, kind) in self.kinds.iter().enumerate() {

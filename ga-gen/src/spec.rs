@@ -6,9 +6,11 @@ use crate::parse::{Basis, KernelSource, Source};
 use crate::product::Pseudoscalar;
 use crate::scalar::Rational;
 use crate::signature::Signature;
+use crate::split::{Depth, SplitBasis};
 use crate::types::{Type, check_type, is_factored};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 use syn::{Error, Ident, Visibility};
 
 /// A checked algebra.
@@ -30,6 +32,8 @@ pub struct Spec {
     pub kernels: Vec<KernelSource>,
     /// What [`Self::sample`] found before: nearly every operation has parameters of the same two names.
     pub(crate) samples: RefCell<BTreeMap<(usize, String), Vec<Fingerprint>>>,
+    /// Split bases that were asked for.
+    splits: RefCell<BTreeMap<Depth, Option<Rc<SplitBasis>>>>,
 }
 
 impl Spec {
@@ -78,6 +82,7 @@ impl Spec {
             types,
             kernels: source.kernels.clone(),
             samples: RefCell::default(),
+            splits: RefCell::default(),
         })
     }
 
@@ -85,6 +90,13 @@ impl Spec {
     #[must_use]
     pub fn find(&self, name: &str) -> Option<usize> {
         self.types.iter().position(|known| known.name == name)
+    }
+
+    /// The split basis of the metric, if there is one.
+    #[must_use]
+    pub fn split_basis(&self, depth: Depth) -> Option<Rc<SplitBasis>> {
+        let mut known = self.splits.borrow_mut();
+        known.entry(depth).or_insert_with(|| SplitBasis::new(&self.signature, depth).map(Rc::new)).clone()
     }
 
     /// Does the type hold every blade? Such a type is never chosen for a result by itself.

@@ -185,8 +185,8 @@ fn multiply(signature: &Signature, a: &Type, b: &Type, body: &Expr, ty: &mut Typ
         for (blade_b, y) in &b.coefficients {
             let product = x.times(&y.shifted(shift));
             for (blade, factor) in signature.geometric(*blade_a, *blade_b) {
-                let sum = ty.coefficients.entry(blade).or_default();
-                *sum = sum.plus(&product.scaled(factor));
+                let sum = ty.coefficients.entry(*blade).or_default();
+                *sum = sum.plus(&product.scaled(*factor));
             }
         }
     }

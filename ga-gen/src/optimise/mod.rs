@@ -8,7 +8,9 @@ mod flatten;
 mod scale;
 mod squares;
 
-use crate::program::{Builder, Node, NodeId, Product, Program, Scaled, Step, Term, Value};
+use crate::field::Fingerprint;
+use crate::program::{Builder, Entry, Node, NodeId, Product, Program, Scaled, Step, Term, Value};
+use crate::scalar::Rational;
 use std::collections::BTreeMap;
 
 /// A node of the working graph: its name and what it is.
@@ -16,6 +18,7 @@ use std::collections::BTreeMap;
 struct Work {
     hint: String,
     node: Node,
+    fingerprint: Fingerprint,
 }
 
 /// The working graph: nodes by id, and the outputs.
@@ -26,6 +29,41 @@ struct Graph {
 }
 
 impl Graph {
+    /// The values of a sum.
+    fn value_of(&self, terms: &[Term]) -> Fingerprint {
+        terms.iter().fold(Fingerprint::constant(Rational::ZERO), |sum, term| {
+            let constant = Fingerprint::constant(term.coefficient);
+            sum.plus(term.factors.iter().fold(constant, |product, id| product.times(self.nodes[*id].fingerprint)))
+        })
+    }
+
+    /// A node for a sum, for use in another one: a known one up to a rational factor, or a new one.
+    fn sum(&mut self, terms: Vec<Term>, hint: String, user: NodeId) -> (Rational, NodeId) {
+        let fingerprint = self.value_of(&terms);
+        let direction = fingerprint.direction();
+        let known = self.nodes.iter().enumerate().find_map(|(id, work)| {
+            let same = work.fingerprint.direction() == direction;
+            let factor = if same { fingerprint.ratio_to(work.fingerprint)? } else { return None };
+            (!self.depends(id, user)).then_some((factor, id))
+        });
+        known.unwrap_or_else(|| {
+            self.nodes.push(Work { hint, node: Node::Sum(terms), fingerprint });
+            (Rational::ONE, self.nodes.len() - 1)
+        })
+    }
+
+    /// Is a node computed from another one?
+    fn depends(&self, id: NodeId, on: NodeId) -> bool {
+        let mut pending = vec![id];
+        while let Some(id) = pending.pop() {
+            if id == on {
+                return true;
+            }
+            pending.extend(operands(&self.nodes[id].node));
+        }
+        false
+    }
+
     /// How often each node is used, counting only what the outputs need.
     fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.nodes.len()];
@@ -54,7 +92,8 @@ fn operands(node: &Node) -> Vec<NodeId> {
 /// Turns the parts of a graph that the outputs need into a program.
 #[must_use]
 pub fn optimise(builder: &Builder, outputs: &[(String, Scaled)]) -> Program {
-    let nodes = builder.entries().iter().map(|e| Work { hint: e.hint.clone(), node: e.node.clone() }).collect();
+    let work = |e: &Entry| Work { hint: e.hint.clone(), node: e.node.clone(), fingerprint: e.fingerprint };
+    let nodes = builder.entries().iter().map(work).collect();
     let outputs = outputs
         .iter()
         .map(|(name, value)| {
@@ -99,7 +138,7 @@ impl Scheduler<'_> {
         if let Some(name) = self.names.get(&id) {
             return name.clone();
         }
-        let Work { hint, node } = &self.graph.nodes[id];
+        let Work { hint, node, .. } = &self.graph.nodes[id];
         let name = match node {
             Node::Input(path) => path.clone(),
             Node::Sum(terms) => {

@@ -35,7 +35,8 @@ fn pulled(graph: &mut Graph, terms: Vec<Term>, hint: &str) -> Vec<Term> {
         let scale = if first_positive.is_some() { magnitude } else { -magnitude };
         let inverse = scale.recip().unwrap_or(Rational::ONE);
         group.iter_mut().for_each(|term| term.coefficient = term.coefficient * inverse);
-        graph.nodes.push(Work { hint: format!("{hint}_part"), node: Node::Sum(group) });
+        let fingerprint = graph.value_of(&group);
+        graph.nodes.push(Work { hint: format!("{hint}_part"), node: Node::Sum(group), fingerprint });
         result.push(Term { coefficient: scale, factors: vec![graph.nodes.len() - 1] });
     }
     result

@@ -1,6 +1,6 @@
 //! `c x² + c y² ± 2 c x y` becomes `c (x ± y)²`: fewer operations, and the difference is taken before the squares.
 
-use super::{Graph, Work};
+use super::Graph;
 use crate::program::{Node, NodeId, Term};
 use crate::scalar::Rational;
 
@@ -9,7 +9,7 @@ pub(super) fn complete_squares(graph: &mut Graph) {
     for id in 0..graph.nodes.len() {
         if let Node::Sum(mut terms) = graph.nodes[id].node.clone() {
             let hint = graph.nodes[id].hint.clone();
-            while let Some((square, used)) = find_square(graph, &terms, &hint) {
+            while let Some((square, used)) = find_square(graph, &terms, &hint, id) {
                 terms =
                     terms.into_iter().enumerate().filter(|(i, _)| !used.contains(i)).map(|(_, term)| term).collect();
                 terms.push(square);
@@ -20,7 +20,7 @@ pub(super) fn complete_squares(graph: &mut Graph) {
 }
 
 /// The first complete square: its term, with the new node `x ± y`, and the three terms that it stands for.
-fn find_square(graph: &mut Graph, terms: &[Term], hint: &str) -> Option<(Term, [usize; 3])> {
+fn find_square(graph: &mut Graph, terms: &[Term], hint: &str, id: NodeId) -> Option<(Term, [usize; 3])> {
     let square_of =
         |node: NodeId, c: Rational| terms.iter().position(|term| term.coefficient == c && term.factors == [node, node]);
     for (index, term) in terms.iter().enumerate() {
@@ -35,19 +35,12 @@ fn find_square(graph: &mut Graph, terms: &[Term], hint: &str) -> Option<(Term, [
                     Term { coefficient: Rational::ONE, factors: vec![x] },
                     Term { coefficient: sign, factors: vec![y] },
                 ];
-                let root = root_node(graph, sum, hint);
-                return Some((Term { coefficient: c, factors: vec![root, root] }, [index, first, second]));
+                // A root that is a multiple of a known node is that node: no sum of `p + q` and `p - q` is left.
+                let (factor, root) = graph.sum(sum, format!("{hint}_root"), id);
+                let square = Term { coefficient: c * factor * factor, factors: vec![root, root] };
+                return Some((square, [index, first, second]));
             }
         }
     }
     None
-}
-
-/// The node `x ± y`, found or made.
-fn root_node(graph: &mut Graph, sum: Vec<Term>, hint: &str) -> NodeId {
-    let known = graph.nodes.iter().position(|work| matches!(&work.node, Node::Sum(terms) if *terms == sum));
-    known.unwrap_or_else(|| {
-        graph.nodes.push(Work { hint: format!("{hint}_root"), node: Node::Sum(sum) });
-        graph.nodes.len() - 1
-    })
 }
