@@ -17,7 +17,6 @@ pub enum Kind {
 }
 
 /// The product of two basis blades.
-#[must_use]
 pub fn blade_product(signature: &Signature, kind: Kind, a: Blade, b: Blade) -> impl Iterator<Item = (Blade, Rational)> {
     let survives = move |blade: Blade| match kind {
         Kind::Geometric => true,
