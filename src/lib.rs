@@ -81,7 +81,7 @@ pub mod simulation;
 pub mod study;
 pub mod versor;
 
-pub use ga_macros::{__algebra_with_base, algebra};
+pub use ga_macros::{__algebra_with_base, __formula_with_spec, algebra, formula};
 
 /// The examples of the README are tests.
 #[cfg(doctest)]

@@ -5,6 +5,7 @@
 
 use ga_physics::algebra::dynamic::{Dynamic, ToDynamic};
 use ga_physics::algebra::{cga, g3};
+use ga_physics::geometry::formulas;
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 use std::hint::black_box;
@@ -77,7 +78,7 @@ fn generated_operations_take_nothing_from_the_heap() {
     let plane = cga::Plane::new(1.0, 0.0, 0.0, 0.5);
     assert_eq!(heap_use(|| m * m), (0, 0));
     assert_eq!(heap_use(|| m.apply(b)), (0, 0));
-    assert_eq!(heap_use(|| cga::circumsphere(a, b, c, d)), (0, 0));
+    assert_eq!(heap_use(|| formulas::circumsphere(a, b, c, d)), (0, 0));
     assert_eq!(heap_use(|| plane | line), (0, 0));
     assert_eq!(heap_use(|| cga::dual(line)), (0, 0));
     assert_eq!(heap_use(|| cga::Even::from(m) * cga::Even::from(m)), (0, 0));

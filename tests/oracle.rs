@@ -189,22 +189,26 @@ mod conformal {
             };
             let dual = |x: &Multi| x.dual().unwrap();
             let (wedge3, flat) = (&(&a ^ &b) ^ &c, &(&(&a ^ &b) ^ &c) ^ &ninf);
-            check("circumsphere_relative", cga::circumsphere_relative(p, q, r, t).to_dynamic(), &dual(&(&wedge3 ^ &d)));
+            check(
+                "circumsphere_relative",
+                formulas::circumsphere_relative(p, q, r, t).to_dynamic(),
+                &dual(&(&wedge3 ^ &d)),
+            );
             let sphere = dual(&(&wedge3 ^ &dual(&(&wedge3 ^ &ninf))));
-            check("circle_sphere_relative", cga::circle_sphere_relative(p, q, r).to_dynamic(), &sphere);
-            check("plane_relative", cga::plane_relative(p, q, r).to_dynamic(), &dual(&flat));
-            check("line_relative", cga::line_relative(p, q).to_dynamic(), &(&(&a ^ &b) ^ &ninf));
+            check("circle_sphere_relative", formulas::circle_sphere_relative(p, q, r).to_dynamic(), &sphere);
+            check("plane_relative", formulas::plane_relative(p, q, r).to_dynamic(), &dual(&flat));
+            check("line_relative", formulas::line_relative(p, q).to_dynamic(), &(&(&a ^ &b) ^ &ninf));
             let meet = &plane.to_dynamic() | &(&(&a ^ &b) ^ &ninf);
-            check("line_meets_plane_relative", cga::line_meets_plane_relative(p, q, plane).to_dynamic(), &meet);
+            check("line_meets_plane_relative", formulas::line_meets_plane_relative(p, q, plane).to_dynamic(), &meet);
             let reciprocal = -&(&(&ninf ^ &(&b ^ &c)) | &flat);
-            check("reciprocal_relative", cga::reciprocal_relative(p, q, r).to_dynamic(), &reciprocal);
+            check("reciprocal_relative", formulas::reciprocal_relative(p, q, r).to_dynamic(), &reciprocal);
             let image = |m: &Multi| (&(m * &a) * m).grade(1);
             check(
                 "reflect_in_line_relative",
-                cga::reflect_in_line_relative(p, line).to_dynamic(),
+                formulas::reflect_in_line_relative(p, line).to_dynamic(),
                 &image(&line.to_dynamic()),
             );
-            let in_circle = cga::reflect_in_circle_relative(p, circle).to_dynamic();
+            let in_circle = formulas::reflect_in_circle_relative(p, circle).to_dynamic();
             check("reflect_in_circle_relative", in_circle, &image(&circle.to_dynamic()));
         }
     }
@@ -217,18 +221,18 @@ mod conformal {
             let points: [Point; 2] = std::array::from_fn(|_| Point::sample(&mut random));
             let [a, b] = points.map(|point| point.to_dynamic());
             let pair = &(&a + &b).scaled(half) + &(&(&a | &b) * &ninf).scaled(half);
-            assert!(cga::pair_sphere(points[0], points[1]).to_dynamic() == pair);
+            assert!(formulas::pair_sphere(points[0], points[1]).to_dynamic() == pair);
             let (plane, sphere, circle) =
                 (Plane::sample(&mut random), Sphere::sample(&mut random), Circle::sample(&mut random));
             let image = |m: Multi| &(&m * &a) * &m;
             let normalised = |x: &Multi| weight(x).map(|w| x.scaled(Rational::new(1, 1) / w));
             let mirrored = normalised(&image(plane.to_dynamic())).unwrap();
-            assert!(cga::reflect_in_plane(points[0], plane).to_dynamic() == mirrored);
+            assert!(formulas::reflect_in_plane(points[0], plane).to_dynamic() == mirrored);
             if let Some(inverse) = normalised(&image(sphere.to_dynamic())) {
-                assert!(cga::reflect_in_sphere(points[0], sphere).to_dynamic() == inverse);
+                assert!(formulas::reflect_in_sphere(points[0], sphere).to_dynamic() == inverse);
             }
             let k = circle.to_dynamic();
-            assert!(cga::circle_centre(circle).to_dynamic() == (&(&k * &ninf) * &k).grade(1));
+            assert!(formulas::circle_centre(circle).to_dynamic() == (&(&k * &ninf) * &k).grade(1));
         }
     }
 
@@ -243,7 +247,7 @@ mod conformal {
             if let Some(weight) = weight(&wedge) {
                 let expected = wedge.scaled(Rational::new(1, 1) / weight);
                 let [a, b, c, d] = points;
-                assert!(cga::circumsphere(a, b, c, d).to_dynamic() == expected);
+                assert!(formulas::circumsphere(a, b, c, d).to_dynamic() == expected);
                 spheres += 1;
             }
         }

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 /// A multivector expression over typed parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Expression {
-    /// The parameter with this index.
+    /// The parameter with this index; in a formula, the ones after the parameters are its steps.
     Input(usize),
     /// A constant multivector.
     Constant(BTreeMap<Blade, Rational>),
@@ -28,8 +28,6 @@ pub enum Expression {
     Grade(u32, Box<Expression>),
     /// `v x ~v`, restricted to the grades of x.
     Sandwich(Box<Expression>, Box<Expression>),
-    /// Divided by its weight, or by its norm where the result type has no weight.
-    Normalised(Box<Expression>),
 }
 
 impl Expression {
@@ -43,5 +41,40 @@ impl Expression {
     #[must_use]
     pub fn sum(a: Self, sign: Rational, b: Self) -> Self {
         Self::Sum(vec![(Rational::ONE, a), (sign, b)])
+    }
+
+    /// Adds the operands that it reads to a list.
+    pub fn operands(&self, found: &mut Vec<usize>) {
+        match self {
+            Self::Input(index) => found.push(*index),
+            Self::Constant(_) => {}
+            Self::Sum(parts) => parts.iter().for_each(|(_, part)| part.operands(found)),
+            Self::Product(_, a, b) | Self::Meet(a, b) | Self::Sandwich(a, b) => {
+                a.operands(found);
+                b.operands(found);
+            }
+            Self::Reverse(a) | Self::Dual(a) | Self::Undual(a) | Self::Grade(_, a) => a.operands(found),
+        }
+    }
+
+    /// The number that it is, if it is one.
+    #[must_use]
+    pub fn as_number(&self) -> Option<Rational> {
+        match self {
+            Self::Constant(terms) if terms.is_empty() => Some(Rational::ZERO),
+            Self::Constant(terms) if terms.len() == 1 => terms.get(&Blade::SCALAR).copied(),
+            Self::Sum(parts) => {
+                let mut numbers = parts.iter().map(|(factor, part)| Some(*factor * part.as_number()?));
+                numbers.try_fold(Rational::ZERO, |sum, number| Some(sum + number?))
+            }
+            Self::Product(product::Kind::Geometric, a, b) => Some(a.as_number()? * b.as_number()?),
+            _ => None,
+        }
+    }
+
+    /// A number.
+    #[must_use]
+    pub fn number(value: Rational) -> Self {
+        Self::Constant([(Blade::SCALAR, value)].into())
     }
 }

@@ -3,14 +3,13 @@
 use crate::alternatives::{Plan, cheapest};
 use crate::expression::Expression;
 use crate::infer::{self, Output};
-use crate::kernel;
 use crate::lower::{Components, Lowering, Schedule};
+use crate::normalise::by_weight;
 use crate::optimise::optimise;
 use crate::product::Kind;
 use crate::program::{Program, Scaled};
 use crate::scalar::Rational;
 use crate::spec::Spec;
-use syn::spanned::Spanned;
 
 /// An operation on declared types, by index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,8 +32,6 @@ pub enum Operation {
     Apply(usize, usize),
     /// A type held by a larger one.
     Embed(usize, usize),
-    /// A named formula.
-    Kernel(usize),
 }
 
 /// A compiled operation.
@@ -42,7 +39,7 @@ pub enum Operation {
 pub struct Item {
     /// The operation.
     pub operation: Operation,
-    /// The name under which it is inspected: `Rotor*Rotor`, `Motor.apply(Point)`, `circumsphere`.
+    /// The name under which it is inspected: `Rotor*Rotor`, `Motor.apply(Point)`.
     pub name: String,
     /// Names and types of the parameters.
     pub parameters: Vec<(String, usize)>,
@@ -99,7 +96,6 @@ pub fn operations(spec: &Spec) -> Vec<Operation> {
             }
         }
     }
-    result.extend((0..spec.kernels.len()).map(Operation::Kernel));
     result
 }
 
@@ -107,15 +103,12 @@ pub fn operations(spec: &Spec) -> Vec<Operation> {
 /// constant of it exceeds 32 bits.
 ///
 /// # Errors
-/// A kernel that is wrong, or a unit type that cannot be sampled.
+/// A unit type that cannot be sampled.
 pub fn compile(spec: &Spec, operation: Operation) -> syn::Result<Option<Item>> {
     let (name, parameters) = describe(spec, operation);
     let lower = |plan: Plan| -> syn::Result<Option<((Output, Program), Plan)>> {
         let mut lowering = Lowering::new(spec, plan, Schedule::Stable);
-        let lowered = match operation {
-            Operation::Kernel(index) => Some(kernel::lower(&mut lowering, &spec.kernels[index])?),
-            _ => lower_simple(&mut lowering, operation, &parameters)?,
-        };
+        let lowered = lower(&mut lowering, operation, &parameters)?;
         let (builder, plan) = lowering.finish();
         Ok(lowered.map(|(output, fields)| {
             let outputs: Vec<(String, Scaled)> = field_names(spec, output).into_iter().zip(fields).collect();
@@ -124,15 +117,7 @@ pub fn compile(spec: &Spec, operation: Operation) -> syn::Result<Option<Item>> {
     };
     let best = cheapest(lower, |(_, program)| program)?;
     let best = best.map(|(output, program)| Item { operation, name, parameters: parameters.clone(), output, program });
-    match (best.as_ref().and_then(|item| item.program.oversized()), operation) {
-        (None, _) => Ok(best),
-        (Some(constant), Operation::Kernel(index)) => {
-            let body = &spec.kernels[index].body;
-            let message = format!("this needs the number {constant}; constants of generated code have 32 bits");
-            Err(syn::Error::new(body.span(), message))
-        }
-        (Some(_), _) => Ok(None),
-    }
+    Ok(best.filter(|item| item.program.oversized().is_none()))
 }
 
 /// The coefficients of `a ~a` for a type that declares them to be those of 1, one output a blade.
@@ -170,12 +155,6 @@ fn describe(spec: &Spec, operation: Operation) -> (String, Vec<(String, usize)>)
         Operation::NormSq(a) => (format!("{}.norm_sq", name(a)), one(a)),
         Operation::Apply(v, x) => (format!("{}.apply({})", name(v), name(x)), two(v, x)),
         Operation::Embed(a, b) => (format!("{}::from({})", name(b), name(a)), one(a)),
-        Operation::Kernel(index) => {
-            let source = &spec.kernels[index];
-            let parameters = source.parameters.iter();
-            let parameters = parameters.filter_map(|(name, ty)| Some((name.to_string(), spec.find(&ty.to_string())?)));
-            (source.name.to_string(), parameters.collect())
-        }
     }
 }
 
@@ -200,12 +179,12 @@ fn expression(operation: Operation) -> Expression {
         Operation::Undual(_) => Expression::Undual(a()),
         Operation::Grade(grade, _) => Expression::Grade(grade, a()),
         Operation::Apply(..) => Expression::Sandwich(a(), b()),
-        Operation::NormSq(_) | Operation::Embed(..) | Operation::Kernel(_) => *a(),
+        Operation::NormSq(_) | Operation::Embed(..) => *a(),
     }
 }
 
-/// Lowers everything but kernels.
-fn lower_simple(
+/// Lowers an operation: the type of the result and its fields.
+fn lower(
     lowering: &mut Lowering<'_>,
     operation: Operation,
     parameters: &[(String, usize)],
@@ -262,7 +241,7 @@ fn image(spec: &Spec, lowering: &mut Lowering<'_>, components: &Components, x: u
     let plain = infer::infer(spec, &mut lowering.builder, components, false);
     let fields = |result: &Option<(Output, Vec<Scaled>)>| result.as_ref().map_or(usize::MAX, |(_, f)| f.len());
     let weight = spec.types[x].weight();
-    let Some((normalised, inverse)) = weight.and_then(|w| kernel::divide_by_weight(lowering, components, w)) else {
+    let Some((normalised, inverse)) = weight.and_then(|w| by_weight(lowering, components, w)) else {
         return plain;
     };
     lowering.builder.sum(&[(Rational::ONE, vec![norm_sq, inverse, inverse])], "kept");

@@ -86,14 +86,22 @@ impl<'a> Lowering<'a> {
         let ty = &self.spec.types[ty];
         let fields: Vec<Scaled> =
             ty.fields.iter().zip(samples).map(|(field, f)| self.builder.input(&format!("{name}.{field}"), f)).collect();
-        let factors = ty.factors.as_ref().map(|factors| {
-            let [a, b] = &**factors;
-            let (left, right) = fields.split_at(a.fields.len());
-            [self.of_type(a, left, name), self.of_type(b, right, name)]
-        });
+        let factors = self.factors_of(ty, &fields, name);
         let components = self.of_type(ty, &fields, name);
+        self.push(components, factors);
+    }
+
+    /// The next operand, lowered already.
+    pub fn push(&mut self, components: Components, factors: Option<[Components; 2]>) {
         self.parameters.push(components);
         self.factors.push(factors);
+    }
+
+    /// The components of the two factors of a factored type with given fields.
+    pub fn factors_of(&mut self, ty: &Type, fields: &[Scaled], hint: &str) -> Option<[Components; 2]> {
+        let [a, b] = &**ty.factors.as_ref()?;
+        let (left, right) = fields.split_at(a.fields.len());
+        Some([self.of_type(a, left, hint), self.of_type(b, right, hint)])
     }
 
     /// The components of a type with given fields.
@@ -150,10 +158,6 @@ impl<'a> Lowering<'a> {
                     let v = self.lower(v)?;
                     self.sandwich(&v, &x)
                 }
-            }
-            Expression::Normalised(a) => {
-                let a = self.lower(a)?;
-                self.unit(&a)?
             }
         })
     }
@@ -241,15 +245,6 @@ impl<'a> Lowering<'a> {
 
     fn metric_pseudoscalar(&self) -> Option<product::Pseudoscalar> {
         self.spec.pseudoscalar.filter(|i| !i.square.is_zero())
-    }
-
-    /// `a / sqrt(|<a ~a>|)`; `None` where `a ~a` is not a sum of squares of one sign, so that its own is not known.
-    fn unit(&mut self, a: &Components) -> Option<Components> {
-        let square = self.norm_sq(a);
-        let sign = self.builder.sign_of_squares(square)?;
-        let root = self.builder.sqrt(square.scaled(sign), "norm");
-        let inverse = self.builder.quotient(Rational::ONE, root, "inv_norm")?;
-        Some(self.scaled(a, inverse))
     }
 
     /// `<a ~a>_0`.

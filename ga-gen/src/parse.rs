@@ -8,7 +8,6 @@
 //! type Rotor: unit + versor = [s, e23, e31, e12];  // stored coefficients, fields named by their blades
 //! type Translator: unit + versor = [s = 1, e1_ninf, e2_ninf, e3_ninf];   // with a constant one
 //! type Point = x*e1 + y*e2 + z*e3 + no + (x*x + y*y + z*z)/2*ninf;   // stored, constant and derived
-//! fn sphere(a: Point, b: Point, c: Point, d: Point) -> Sphere, local a { (a ^ b ^ c ^ d).dual().normalised() }
 //! ```
 
 use proc_macro2::{Span, TokenStream};
@@ -23,8 +22,6 @@ mod keyword {
     syn::custom_keyword!(null);
     syn::custom_keyword!(pair);
     syn::custom_keyword!(pseudoscalar);
-    syn::custom_keyword!(local);
-    syn::custom_keyword!(relative);
 }
 
 /// One `algebra!` invocation.
@@ -42,8 +39,6 @@ pub struct Source {
     pub pseudoscalar: Option<(bool, Ident)>,
     /// Named types.
     pub types: Vec<TypeSource>,
-    /// Named formulas.
-    pub kernels: Vec<KernelSource>,
 }
 
 /// Declared basis vectors.
@@ -77,39 +72,27 @@ pub enum TypeBody {
     Sum(Box<Expr>),
 }
 
-/// In which frame a kernel is evaluated.
-#[derive(Clone, Debug)]
-pub enum Frame {
-    /// As written.
-    World,
-    /// With this parameter as origin; the result is moved back.
-    Local(Ident),
-    /// With this parameter as origin; the result stays relative to it.
-    Relative(Ident),
+/// What an algebra's specification macro hands over: the algebras that it stands on, the first one first, and itself.
+pub struct Chain(pub Vec<(Source, TokenStream)>);
+
+impl Parse for Chain {
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        let mut chain = Vec::new();
+        while input.peek(syn::token::Brace) {
+            let content;
+            syn::braced!(content in input);
+            let tokens: TokenStream = content.parse()?;
+            chain.push((syn::parse2(tokens.clone())?, tokens));
+        }
+        Ok(Self(chain))
+    }
 }
 
-/// `fn name(a: Point, ...) -> Sphere, local a { expression }`
-#[derive(Clone, Debug)]
-pub struct KernelSource {
-    /// Doc comments.
-    pub docs: Vec<Attribute>,
-    /// The name.
-    pub name: Ident,
-    /// Parameters and their types.
-    pub parameters: Vec<(Ident, Ident)>,
-    /// The type of the result.
-    pub output: Ident,
-    /// The frame.
-    pub frame: Frame,
-    /// The body.
-    pub body: Expr,
-}
-
-/// What a base algebra's specification macro hands back.
+/// A chain of algebras, and one that extends the last of them.
 pub struct WithBase {
-    /// The base algebra.
-    pub base: Source,
-    /// The algebra that extends it.
+    /// The algebras that `own` stands on.
+    pub chain: Chain,
+    /// The algebra that extends the last of them.
     pub own: Source,
     /// The tokens of `own`.
     pub own_tokens: TokenStream,
@@ -117,11 +100,28 @@ pub struct WithBase {
 
 impl Parse for WithBase {
     fn parse(input: ParseStream) -> syn::Result<Self> {
-        let content;
-        syn::braced!(content in input);
-        let base = content.parse()?;
+        let chain = input.parse()?;
         let own_tokens: TokenStream = input.parse()?;
-        Ok(Self { base, own: syn::parse2(own_tokens.clone())?, own_tokens })
+        Ok(Self { chain, own: syn::parse2(own_tokens.clone())?, own_tokens })
+    }
+}
+
+/// A chain of algebras, the options of a formula in brackets, and the function.
+pub struct WithFormula {
+    /// The algebra of the formula, last.
+    pub chain: Chain,
+    /// The options.
+    pub attribute: TokenStream,
+    /// The function.
+    pub item: TokenStream,
+}
+
+impl Parse for WithFormula {
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        let chain = input.parse()?;
+        let attribute;
+        syn::parenthesized!(attribute in input);
+        Ok(Self { chain, attribute: attribute.parse()?, item: input.parse()? })
     }
 }
 
@@ -139,8 +139,7 @@ impl Parse for Source {
             extends = Some(base);
         }
         input.parse::<Token![;]>()?;
-        let mut source =
-            Self { visibility, name, extends, basis: vec![], pseudoscalar: None, types: vec![], kernels: vec![] };
+        let mut source = Self { visibility, name, extends, basis: vec![], pseudoscalar: None, types: vec![] };
         while !input.is_empty() {
             source.parse_item(input)?;
         }
@@ -166,8 +165,8 @@ impl Source {
             input.parse::<Token![;]>()?;
         } else if lookahead.peek(Token![type]) {
             self.types.push(TypeSource::parse(docs, input)?);
-        } else if lookahead.peek(Token![fn]) {
-            self.kernels.push(KernelSource::parse(docs, input)?);
+        } else if input.peek(Token![fn]) {
+            return Err(input.error("formulas stand outside of `algebra!`: write `#[formula(path)]` on the function"));
         } else {
             return Err(lookahead.error());
         }
@@ -237,41 +236,5 @@ impl TypeSource {
         };
         input.parse::<Token![;]>()?;
         Ok(Self { docs, name, facts, body })
-    }
-}
-
-impl KernelSource {
-    fn parse(docs: Vec<Attribute>, input: ParseStream) -> syn::Result<Self> {
-        input.parse::<Token![fn]>()?;
-        let name = input.parse()?;
-        let list;
-        syn::parenthesized!(list in input);
-        let mut parameters = Vec::new();
-        while !list.is_empty() {
-            let parameter = list.parse()?;
-            list.parse::<Token![:]>()?;
-            parameters.push((parameter, list.parse()?));
-            if !list.is_empty() {
-                list.parse::<Token![,]>()?;
-            }
-        }
-        input.parse::<Token![->]>()?;
-        let output = input.parse()?;
-        let mut frame = Frame::World;
-        if input.parse::<Option<Token![,]>>()?.is_some() {
-            let lookahead = input.lookahead1();
-            frame = if lookahead.peek(keyword::local) {
-                input.parse::<keyword::local>()?;
-                Frame::Local(input.parse()?)
-            } else if lookahead.peek(keyword::relative) {
-                input.parse::<keyword::relative>()?;
-                Frame::Relative(input.parse()?)
-            } else {
-                return Err(lookahead.error());
-            };
-        }
-        let body;
-        syn::braced!(body in input);
-        Ok(Self { docs, name, parameters, output, frame, body: body.parse()? })
     }
 }

@@ -67,6 +67,21 @@ pub enum Node {
     Quotient(Rational, NodeId),
     /// The square root.
     Sqrt(NodeId),
+    /// A call of another formula: no number itself, but its parts are.
+    Call(Box<CallNode>),
+    /// A number of the result of a call, by its path within it (`e1`, `0.e1`; empty for a bare scalar).
+    Part(NodeId, String),
+}
+
+/// A call of another formula, of which nothing is known but its arguments.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CallNode {
+    /// Which call of the formula it is.
+    pub call: usize,
+    /// The function, for reading.
+    pub function: String,
+    /// The arguments: a declared type, or none for a scalar, and its fields.
+    pub arguments: Vec<(Option<usize>, Vec<(String, Scaled)>)>,
 }
 
 /// A node with its name and values.
@@ -216,6 +231,25 @@ impl Builder {
         self.intern(Node::Sqrt(radicand), hint, fingerprint)
     }
 
+    /// A call. Its values at the random points are opaque, like those of a root: they belong to function and arguments.
+    pub fn call(&mut self, call: CallNode, hint: &str) -> NodeId {
+        let fields = call.arguments.iter().flat_map(|(_, fields)| fields);
+        let arguments: Vec<Fingerprint> = fields.map(|(_, value)| self.fingerprint(*value)).collect();
+        let mut stream = crate::field::Stream::named(&format!("{} {arguments:?}", call.function));
+        let fingerprint = Fingerprint(std::array::from_fn(|_| stream.next_residue()));
+        let known = self.by_direction.get(&fingerprint.direction()).copied();
+        known.unwrap_or_else(|| {
+            self.entries.push(Entry { node: Node::Call(Box::new(call)), hint: hint.into(), fingerprint });
+            self.by_direction.insert(fingerprint.direction(), self.entries.len() - 1);
+            self.entries.len() - 1
+        })
+    }
+
+    /// A number of the result of a call, with its values at the random points.
+    pub fn part(&mut self, call: NodeId, path: &str, fingerprint: Fingerprint) -> Scaled {
+        self.intern(Node::Part(call, path.into()), path, fingerprint)
+    }
+
     /// A node whose value is exactly the scalar, factor included.
     fn sum_as_node(&mut self, value: Scaled, hint: &str) -> NodeId {
         match value.node {
@@ -248,6 +282,19 @@ pub enum Value {
     Quotient(Rational, String),
     /// The square root.
     Sqrt(String),
+    /// A call of another formula; its parts are named by the step.
+    Call(Call),
+}
+
+/// A call of another formula.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Call {
+    /// Which call of the formula it is.
+    pub call: usize,
+    /// The function, for reading.
+    pub function: String,
+    /// The arguments: a declared type, or none for a scalar, and its fields.
+    pub arguments: Vec<(Option<usize>, Vec<Step>)>,
 }
 
 /// A named scalar step.
@@ -291,24 +338,43 @@ impl Counts {
     }
 }
 
+impl Value {
+    fn constants(&self) -> Vec<Rational> {
+        match self {
+            Self::Quotient(numerator, _) => vec![*numerator],
+            Self::Sqrt(_) | Self::Call(_) => vec![],
+            Self::Sum(products) => products.iter().map(|product| product.coefficient).collect(),
+        }
+    }
+}
+
 impl Program {
+    /// Every right-hand side, the arguments of calls included.
+    #[must_use]
+    pub fn values(&self) -> Vec<&Value> {
+        let mut values = Vec::new();
+        for step in self.steps.iter().chain(&self.outputs) {
+            if let Value::Call(call) = &step.value {
+                values.extend(call.arguments.iter().flat_map(|(_, fields)| fields).map(|field| &field.value));
+            }
+            values.push(&step.value);
+        }
+        values
+    }
+
     /// The first constant that generated code could not say, if there is one.
     #[must_use]
     pub fn oversized(&self) -> Option<Rational> {
-        let constants = |step: &Step| match &step.value {
-            Value::Quotient(numerator, _) => vec![*numerator],
-            Value::Sqrt(_) => vec![],
-            Value::Sum(products) => products.iter().map(|product| product.coefficient).collect(),
-        };
-        self.steps.iter().chain(&self.outputs).flat_map(constants).find(|constant| !constant.fits())
+        self.values().iter().flat_map(|value| value.constants()).find(|constant| !constant.fits())
     }
 
     /// Counts the operations that the emitted code performs.
     #[must_use]
     pub fn counts(&self) -> Counts {
         let mut counts = Counts::default();
-        for step in self.steps.iter().chain(&self.outputs) {
-            match &step.value {
+        for value in self.values() {
+            match value {
+                Value::Call(_) => {}
                 Value::Quotient(..) => counts.div += 1,
                 Value::Sqrt(_) => counts.sqrt += 1,
                 Value::Sum(products) => count_sum(products, &mut counts),

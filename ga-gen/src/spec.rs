@@ -1,8 +1,8 @@
-//! A checked algebra: its metric, its types as sets of blades with knowledge, its kernels.
+//! A checked algebra: its metric, and its types as sets of blades with knowledge.
 
 use crate::blade::Blade;
 use crate::field::Fingerprint;
-use crate::parse::{Basis, KernelSource, Source};
+use crate::parse::{Basis, Source};
 use crate::product::Pseudoscalar;
 use crate::scalar::Rational;
 use crate::signature::Signature;
@@ -28,8 +28,6 @@ pub struct Spec {
     pub pseudoscalar: Option<Pseudoscalar>,
     /// Named types; those of the base algebra first, unless redeclared.
     pub types: Vec<Type>,
-    /// Named formulas.
-    pub kernels: Vec<KernelSource>,
     /// What [`Self::sample`] found before: nearly every operation has parameters of the same two names.
     pub(crate) samples: RefCell<BTreeMap<(usize, String), Vec<Fingerprint>>>,
     /// Split bases that were asked for.
@@ -80,7 +78,6 @@ impl Spec {
             signature,
             pseudoscalar: pseudoscalar.transpose()?,
             types,
-            kernels: source.kernels.clone(),
             samples: RefCell::default(),
             splits: RefCell::default(),
         })
@@ -106,18 +103,12 @@ impl Spec {
     }
 }
 
-/// Names that generated code uses itself, and kernels that share one.
+/// Names that generated code uses itself.
 fn check_names(source: &Source) -> syn::Result<()> {
     for ty in &source.types {
         if ["T", "Scalar", "Algebra", "Dual", "Undual", "Meet"].iter().any(|taken| ty.name == taken) {
             let message = format!("`{}` means something else in generated code; name the type differently", ty.name);
             return Err(Error::new(ty.name.span(), message));
-        }
-    }
-    for (index, kernel) in source.kernels.iter().enumerate() {
-        let twice = source.kernels[..index].iter().any(|earlier| earlier.name == kernel.name);
-        if twice || ["dual", "undual", "meet"].iter().any(|taken| kernel.name == taken) {
-            return Err(Error::new(kernel.name.span(), format!("a function `{}` exists already", kernel.name)));
         }
     }
     Ok(())

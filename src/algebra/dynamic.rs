@@ -292,24 +292,46 @@ impl<M: Metric, T: Scalar> Dynamic<M, T> {
         sized!(summed(terms))
     }
 
+    /// The bits of the pseudoscalar's blade.
+    const FULL: usize = (1 << M::SQUARES.len()) - 1;
+    /// Was a pseudoscalar declared, and `I²` is not 0?
+    const HAS_DUAL: bool =
+        M::PSEUDOSCALAR_SIGN != 0 && Products::new(M::SQUARES).geometric[Self::FULL] >> Self::FULL & 1 == 1;
+
     /// `I a`; `None` where no pseudoscalar was declared or `I² = 0`.
     #[must_use]
     pub fn dual(&self) -> Option<Self> {
-        let full = (1 << M::SQUARES.len()) - 1;
-        let products = Table::<M>::PRODUCTS;
-        let has_square = products.geometric[full] >> full & 1 == 1;
-        (M::PSEUDOSCALAR_SIGN != 0 && has_square).then(|| {
-            let negative = if M::PSEUDOSCALAR_SIGN < 0 { !products.negative[full] } else { products.negative[full] };
-            self.map(|blade, value| (full ^ blade, if negative >> blade & 1 == 1 { -value } else { value }))
-        })
+        Self::HAS_DUAL.then(|| self.times_pseudoscalar(M::PSEUDOSCALAR_SIGN < 0))
     }
 
     /// `I^-1 a`.
     #[must_use]
     pub fn undual(&self) -> Option<Self> {
-        let full = (1 << M::SQUARES.len()) - 1;
-        let dual = self.dual()?;
-        Some(if Table::<M>::PRODUCTS.negative[full] >> full & 1 == 1 { -&dual } else { dual })
+        let square_is_negative = Table::<M>::PRODUCTS.negative[Self::FULL] >> Self::FULL & 1 == 1;
+        Self::HAS_DUAL.then(|| self.times_pseudoscalar((M::PSEUDOSCALAR_SIGN < 0) != square_is_negative))
+    }
+
+    /// `I a` for generated code, which has checked that there is a dual: else this does not compile.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn __dual(&self) -> Self {
+        const { assert!(Self::HAS_DUAL, "no pseudoscalar with a square other than 0") };
+        self.times_pseudoscalar(M::PSEUDOSCALAR_SIGN < 0)
+    }
+
+    /// `I^-1 a` for generated code.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn __undual(&self) -> Self {
+        let dual = self.__dual();
+        if Table::<M>::PRODUCTS.negative[Self::FULL] >> Self::FULL & 1 == 1 { -&dual } else { dual }
+    }
+
+    /// The product of the orthonormal basis in order, times `self`, times the given sign.
+    fn times_pseudoscalar(&self, negated: bool) -> Self {
+        let row = Table::<M>::PRODUCTS.negative[Self::FULL];
+        let negative = if negated { !row } else { row };
+        self.map(|blade, value| (Self::FULL ^ blade, if negative >> blade & 1 == 1 { -value } else { value }))
     }
 
     /// `undual(dual a ^ dual b)`.

@@ -13,7 +13,8 @@
 
 use alloc::vec::Vec;
 
-use crate::algebra::cga::{self, Point, Round};
+use super::formulas;
+use crate::algebra::cga::{Point, Round};
 use nalgebra::Vector3;
 
 /// A ball: all points within `radius` of `centre`.
@@ -297,17 +298,17 @@ struct LocalRound {
 
 /// The smallest sphere through the local origin and `b`: `(A + B)/2 + (A . B)/2 ninf`.
 fn round_of_two(b: Point<f64>) -> LocalRound {
-    local_round(cga::pair_sphere(Point::origin(), b).centre())
+    local_round(formulas::pair_sphere(Point::origin(), b).centre())
 }
 
 /// The smallest sphere through the local origin, `b` and `c`: `K ^ (K ^ ninf)*` with their circle K.
 fn round_of_three(b: Point<f64>, c: Point<f64>) -> LocalRound {
-    over_weight(cga::circle_sphere_relative(Point::origin(), b, c))
+    over_weight(formulas::circle_sphere_relative(Point::origin(), b, c))
 }
 
 /// The sphere through the local origin, `b`, `c` and `d`: the dual of their wedge.
 fn round_of_four(b: Point<f64>, c: Point<f64>, d: Point<f64>) -> LocalRound {
-    over_weight(cga::circumsphere_relative(Point::origin(), b, c, d))
+    over_weight(formulas::circumsphere_relative(Point::origin(), b, c, d))
 }
 
 /// A round through the local origin; one of no weight has a centre that is not finite, which its users look for.

@@ -5,9 +5,9 @@
 //! 46; the printed sign gives `-delta_ij`). They are formed once for a facet, in the frame of its own vertices.
 
 use super::scaled::{differences, is_subnormal, power_of_two};
-use super::{Degenerate, plane_through};
+use super::{Degenerate, formulas, plane_through};
 use crate::algebra::Real;
-use crate::algebra::cga::{self, Plane, Point};
+use crate::algebra::cga::{Plane, Point};
 use crate::algebra::g3::Vector;
 
 /// A facet of a body, counter-clockwise seen from outside.
@@ -45,7 +45,7 @@ impl<T: Real> Facet<T> {
             let edges = differences(first, [second, third])?;
             let unit = power_of_two(&edges);
             let [u, v] = edges.map(|edge| Point::from(edge / unit));
-            let reciprocal = cga::reciprocal_relative(Point::origin(), u, v);
+            let reciprocal = formulas::reciprocal_relative(Point::origin(), u, v);
             if is_subnormal(reciprocal.ninf) {
                 return Err(Degenerate::OutOfRange);
             }

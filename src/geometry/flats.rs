@@ -1,10 +1,10 @@
 //! Lines and planes through points.
 
-use super::Degenerate;
 use super::rounds::COLLINEAR_EPSILONS;
 use super::scaled::{differences, power_of_two};
+use super::{Degenerate, formulas};
 use crate::algebra::Real;
-use crate::algebra::cga::{self, Infinity, Line, Plane, Point};
+use crate::algebra::cga::{Infinity, Line, Plane, Point};
 
 /// The line `a ^ b ^ ninf`, from `a` to `b`; `L² = -<L ~L>` is their distance squared.
 ///
@@ -29,7 +29,7 @@ pub fn line_through<T: Real>(a: Point<T>, b: Point<T>) -> Result<Line<T>, Degene
 pub fn plane_through<T: Real>(a: Point<T>, b: Point<T>, c: Point<T>) -> Result<Plane<T>, Degenerate> {
     // Only the direction of u ^ v matters: each edge is brought near 1 by itself.
     let [u, v] = differences(a, [b, c])?.map(|edge| edge / power_of_two(&[edge]));
-    let plane = cga::plane_relative(Point::origin(), u.into(), v.into());
+    let plane = formulas::plane_relative(Point::origin(), u.into(), v.into());
     let doubled_area_sq = plane.e1 * plane.e1 + plane.e2 * plane.e2 + plane.e3 * plane.e3;
     let bound = T::from_f64(COLLINEAR_EPSILONS) * T::EPSILON;
     if doubled_area_sq <= bound * bound * u.norm_sq() * v.norm_sq() {

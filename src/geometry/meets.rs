@@ -1,10 +1,10 @@
 //! Where lines, planes and spheres meet.
 
-use super::Degenerate;
 use super::rounds::CircleParts;
 use super::scaled::{differences, power_of_two};
+use super::{Degenerate, formulas};
 use crate::algebra::Real;
-use crate::algebra::cga::{self, DualLine, Line, Plane, Point, Sphere};
+use crate::algebra::cga::{DualLine, Line, Plane, Point, Sphere};
 use crate::algebra::g3::Vector;
 
 /// Line and plane are taken for parallel when the sine of their angle is below this many epsilons: the inner product of
@@ -27,7 +27,7 @@ pub fn line_meets_plane<T: Real>(a: Point<T>, b: Point<T>, plane: Plane<T>) -> R
     }
     let local = Plane::new(plane.e1, plane.e2, plane.e3, -height);
     let [u] = edges.map(|edge| edge / power_of_two(&edges));
-    let flat = cga::line_meets_plane_relative(Point::origin(), u.into(), local);
+    let flat = formulas::line_meets_plane_relative(Point::origin(), u.into(), local);
     let bound = T::from_f64(PARALLEL_EPSILONS) * T::EPSILON;
     if flat.no_ninf.abs() <= bound * u.norm_sq().sqrt() {
         return Err(Degenerate::ParallelLineAndPlane);

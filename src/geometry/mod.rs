@@ -1,6 +1,6 @@
 //! Points, flats and rounds of Euclidean space on the conformal algebra; meshes and what is computed from them.
 //!
-//! Generated kernels are unchecked; here they are wrapped: a construction either succeeds or names the degenerate case
+//! The [`formulas`] are unchecked; here they are wrapped: a construction either succeeds or names the degenerate case
 //! ([`Degenerate`]). Every round is built in the local frame of one of its own points ("difference first"); only
 //! [`circle_parts`] takes a blade as it is. Geometry knows no time.
 
@@ -10,6 +10,7 @@ mod double_double;
 pub mod enclosing_sphere;
 mod facet;
 mod flats;
+pub mod formulas;
 pub mod mass_properties;
 mod meets;
 pub mod mesh;

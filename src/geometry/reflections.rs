@@ -1,16 +1,16 @@
 //! Reflections of points in planes, lines and spheres: `M X M` up to weight (report, equation 20), in the frame of the
 //! point.
 
-use super::Degenerate;
 use super::scaled::{differences, power_of_two};
+use super::{Degenerate, formulas};
 use crate::algebra::Real;
-use crate::algebra::cga::{self, Line, Plane, Point, Sphere};
+use crate::algebra::cga::{Line, Plane, Point, Sphere};
 use crate::algebra::g3::Vector;
 
 /// The mirror image in a plane.
 #[must_use]
 pub fn reflect_in_plane<T: Real>(point: Point<T>, plane: Plane<T>) -> Point<T> {
-    cga::reflect_in_plane(point, plane)
+    formulas::reflect_in_plane(point, plane)
 }
 
 /// The image under the half-turn round a line.
@@ -33,14 +33,14 @@ pub fn closest_point_on_line<T: Real>(point: Point<T>, line: Line<T>) -> Result<
 /// is taken out, so that short lines do not underflow.
 fn to_image<T: Real>(point: Point<T>, line: Line<T>) -> Result<Vector<T>, Degenerate> {
     let unit = power_of_two(&[Vector::new(line.e1_no_ninf, line.e2_no_ninf, line.e3_no_ninf)]);
-    let image = cga::reflect_in_line_relative(point, line.map(|part| part / unit));
+    let image = formulas::reflect_in_line_relative(point, line.map(|part| part / unit));
     Ok(image.centre()?.position())
 }
 
 /// The inverse in a sphere: on the ray from the centre, at distance `rho² / d`.
 ///
 /// That is `s X s` in the frame of the centre C, where `s = C - rho²/2 ninf`. In the frame of X, which the kernel
-/// `cga::reflect_in_sphere` uses, the image of a far point is the small difference of two long vectors: at `d = 1e8 rho`
+/// `formulas::reflect_in_sphere` uses, the image of a far point is the small difference of two long vectors: at `d = 1e8 rho`
 /// nothing of it would be left.
 ///
 /// # Errors

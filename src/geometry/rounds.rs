@@ -31,9 +31,9 @@
 //! ```
 
 use super::scaled::{differences, is_subnormal, power_of_two, squared_in};
-use super::{Degenerate, plane_through};
+use super::{Degenerate, formulas, plane_through};
 use crate::algebra::Real;
-use crate::algebra::cga::{self, Circle, Infinity, Point, Round, Sphere};
+use crate::algebra::cga::{Circle, Infinity, Point, Round, Sphere};
 use crate::algebra::g3::Vector;
 
 /// Three points are taken for collinear when twice their area is within this many epsilons of the product of two edges.
@@ -56,7 +56,7 @@ pub fn sphere_through<T: Real>(a: Point<T>, b: Point<T>, c: Point<T>, d: Point<T
     let edges = differences(a, [b, c, d])?;
     let unit = power_of_two(&edges);
     let [u, v, w] = edges.map(|edge| edge / unit);
-    let round = cga::circumsphere_relative(Point::origin(), u.into(), v.into(), w.into());
+    let round = formulas::circumsphere_relative(Point::origin(), u.into(), v.into(), w.into());
     let bound = T::from_f64(COPLANAR_EPSILONS) * T::EPSILON;
     if round.no.abs() <= bound * u.norm_sq().sqrt() * v.norm_sq().sqrt() * w.norm_sq().sqrt() {
         return Err(Degenerate::CoplanarPoints);
@@ -77,7 +77,7 @@ pub fn sphere_through_pair<T: Real>(a: Point<T>, b: Point<T>) -> Result<Sphere<T
     }
     let unit = power_of_two(&edges);
     let [half] = edges.map(|edge| edge / unit * T::ratio(1, 2));
-    let centre = cga::pair_sphere(a, b).centre();
+    let centre = formulas::pair_sphere(a, b).centre();
     Ok(Sphere::new(centre.x, centre.y, centre.z, squared_in(half.norm_sq(), unit)?))
 }
 
@@ -102,7 +102,7 @@ pub fn circle_through<T: Real>(a: Point<T>, b: Point<T>, c: Point<T>) -> Result<
     let edges = differences(a, [b, c])?;
     let unit = power_of_two(&edges);
     let [u, v] = edges.map(|edge| edge / unit);
-    let centre = relative_centre(cga::circle_sphere_relative(Point::origin(), u.into(), v.into()))?;
+    let centre = relative_centre(formulas::circle_sphere_relative(Point::origin(), u.into(), v.into()))?;
     Ok(CircleParts { centre: a.moved(centre * unit), radius: centre.norm_sq().sqrt() * unit, normal })
 }
 
@@ -125,7 +125,7 @@ pub fn circle_parts<T: Real>(circle: Circle<T>) -> Result<CircleParts<T>, Degene
     }
     // K² = -<K ~K> for a 3-vector, and (ninf ^ K)² = -|nu|² for the 4-blade.
     let rho_sq = -circle.norm_sq() / plane_sq;
-    let centre = cga::circle_centre(circle).centre()?;
+    let centre = formulas::circle_centre(circle).centre()?;
     if !rho_sq.is_finite() {
         return Err(Degenerate::NotFinite);
     }

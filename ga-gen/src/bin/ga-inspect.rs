@@ -1,4 +1,4 @@
-//! Shows what `algebra!` generates: `ga-inspect [--algebra FILE] FILE [ITEM]`.
+//! Shows what `algebra!` and `#[formula]` generate: `ga-inspect [--algebra FILE] FILE [ITEM]`.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -6,11 +6,12 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 usage: ga-inspect [--algebra FILE] FILE [ITEM]
 
-FILE holds an `algebra!` invocation. Without ITEM: its basis products, types, and all items with their cost.
-With ITEM: operands, formula, operation counts and generated Rust. Items are named like
+FILE holds `algebra!` or `#[formula]`. Without ITEM: the basis products and types of the algebra, and all items and
+formulas with their cost. With ITEM: operands, formula, operation counts and generated Rust. Items are named like
   'Rotor*Rotor'  'Point^Point'  'Plane|Line'  'Plane&Line'  'Motor.apply(Point)'  Line.dual  Rotor.rev
   Even.grade2  'Round::from(Point)'  circumsphere
-A base algebra (`extends`) is looked for in FILE, in a sibling named for it, then in --algebra FILE.";
+The algebra of a formula, and one that another extends, is looked for by its name: in FILE, in a sibling named for it,
+then in --algebra FILE.";
 
 struct Arguments {
     file: PathBuf,
@@ -57,10 +58,10 @@ fn main() -> ExitCode {
 }
 
 fn text(arguments: &Arguments) -> Result<String, ga_gen::inspect::InspectError> {
-    let spec = ga_gen::inspect::load(&arguments.file, arguments.algebra.as_deref())?;
+    let inspected = ga_gen::inspect::load(&arguments.file, arguments.algebra.as_deref())?;
     match &arguments.item {
-        Some(item) => ga_gen::inspect::item_text(&spec, item, &arguments.file),
-        None => ga_gen::inspect::overview(&spec)
+        Some(item) => ga_gen::inspect::item_text(&inspected, item, &arguments.file),
+        None => ga_gen::inspect::overview(&inspected)
             .map_err(|error| ga_gen::inspect::InspectError::Syntax(arguments.file.clone(), error)),
     }
 }

@@ -1,27 +1,36 @@
 //! Tokens of straight-line scalar code.
 
-use crate::program::{Product, Program, Step, Value};
+use crate::program::{Call, Product, Program, Step, Value};
 use crate::scalar::Rational;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
 /// Sums of up to this many terms are a chain; longer ones a balanced tree, which has the shorter dependency chain and
 /// the smaller error bound.
 const LONGEST_CHAIN: usize = 4;
 
-/// `let` statements for the shared steps.
+/// `let` statements for the shared steps of a program without calls.
 pub(super) fn steps(program: &Program) -> TokenStream {
+    steps_with(program, |_| TokenStream::new())
+}
+
+/// `let` statements for the shared steps; a call is written by the caller, who knows the types.
+pub(super) fn steps_with(program: &Program, call: impl Fn(&Call) -> TokenStream) -> TokenStream {
+    let statement = |step: &Step| {
+        let name = path(&step.name);
+        let value = match &step.value {
+            Value::Call(known) => call(known),
+            other => value(other),
+        };
+        quote!(let #name = #value;)
+    };
     program.steps.iter().map(statement).collect()
 }
 
-fn statement(step: &Step) -> TokenStream {
-    let (name, value) = (path(&step.name), value(&step.value));
-    quote!(let #name = #value;)
-}
-
-/// The expression of a step or output.
+/// The expression of a step or output that is no call.
 pub(super) fn value(value: &Value) -> TokenStream {
     match value {
+        Value::Call(_) => TokenStream::new(),
         Value::Quotient(numerator, denominator) => {
             let (numerator, denominator) = (constant(*numerator), path(denominator));
             quote!(#numerator / #denominator)
@@ -93,7 +102,10 @@ fn constant(value: Rational) -> TokenStream {
 
 /// `a.e1` or a local name.
 fn path(name: &str) -> TokenStream {
-    let mut parts = name.split('.').map(identifier);
+    let mut parts = name.split('.').map(|part| match part.parse::<usize>() {
+        Ok(index) => Literal::usize_unsuffixed(index).into_token_stream(),
+        Err(_) => identifier(part).into_token_stream(),
+    });
     let first = parts.next();
     quote!(#first #(.#parts)*)
 }
@@ -118,10 +130,11 @@ const KEYWORDS: [&str; 53] = [
 
 /// Does the program read a parameter?
 pub(super) fn reads(program: &Program, parameter: &str) -> bool {
-    let prefix = format!("{parameter}.");
-    program.steps.iter().chain(&program.outputs).any(|step| match &step.value {
-        Value::Quotient(_, name) | Value::Sqrt(name) => name.starts_with(&prefix),
-        Value::Sum(products) => products.iter().any(|product| product.factors.iter().any(|f| f.starts_with(&prefix))),
+    let reads = |name: &String| name.split('.').next() == Some(parameter);
+    program.values().into_iter().any(|value| match value {
+        Value::Quotient(_, name) | Value::Sqrt(name) => reads(name),
+        Value::Sum(products) => products.iter().any(|product| product.factors.iter().any(reads)),
+        Value::Call(_) => false,
     })
 }
 

@@ -1,11 +1,16 @@
-//! Rust tokens for an algebra: types, operations, kernels, the metric, and the macro that carries the specification.
+//! Rust tokens: of an algebra its types, operations, metric, and the macro that carries the specification; of a formula
+//! the function and its dynamic twin.
 //!
 //! Generated code names the library as `::ga_physics`, is generic over `T: Scalar`, and contains no branch, no loop and
 //! no call but arithmetic.
 
 mod code;
+mod formula;
 mod operations;
+mod twin;
 mod types;
+
+pub use formula::formula;
 
 use crate::item::{self, Item, Operation};
 use crate::signature::Kind;
@@ -13,12 +18,13 @@ use crate::spec::Spec;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-/// Everything that `algebra!` expands to.
+/// Everything that `algebra!` expands to; the chain is the tokens of all algebras that it stands on, and its own.
 ///
 /// # Errors
-/// A kernel that is wrong, or a unit type that cannot be sampled.
-pub fn algebra(spec: &Spec, tokens: &TokenStream) -> syn::Result<TokenStream> {
+/// A unit type that cannot be sampled.
+pub fn algebra(spec: &Spec, chain: &[TokenStream]) -> syn::Result<TokenStream> {
     let mut result = metric(spec);
+    result.extend(shared(spec));
     for (index, ty) in spec.types.iter().enumerate().filter(|(_, ty)| !ty.shared) {
         result.extend(types::declare(spec, index, ty));
     }
@@ -42,7 +48,7 @@ pub fn algebra(spec: &Spec, tokens: &TokenStream) -> syn::Result<TokenStream> {
         #[doc(hidden)]
         #[macro_export]
         macro_rules! #spec_macro {
-            ($($rest:tt)*) => { ::ga_physics::__algebra_with_base! { { #tokens } $($rest)* } };
+            ($then:ident $($rest:tt)*) => { ::ga_physics::$then! { #({ #chain })* $($rest)* } };
         }
         #[doc(hidden)]
         pub use #spec_macro as __spec;
@@ -56,6 +62,18 @@ pub fn algebra(spec: &Spec, tokens: &TokenStream) -> syn::Result<TokenStream> {
         pub use #operations_macro as __operations;
     });
     Ok(result)
+}
+
+/// The types of the base algebra, by their own names: so every type of this algebra is found in its module.
+fn shared(spec: &Spec) -> TokenStream {
+    let Some(base) = &spec.extends else { return TokenStream::new() };
+    let names: Vec<_> = spec.types.iter().filter(|ty| ty.shared).map(|ty| &ty.name).collect();
+    let visibility = &spec.visibility;
+    quote! {
+        #[doc(no_inline)]
+        #[allow(unused_imports, reason = "for formulas and for whoever wants one place to look")]
+        #visibility use #base::{#(#names),*};
+    }
 }
 
 /// The tokens of one item.
@@ -105,7 +123,6 @@ fn list_entry(spec: &Spec, operation: Operation) -> TokenStream {
             let a = name(a);
             quote!((norm_sq #a))
         }
-        Operation::Kernel(_) => TokenStream::new(),
     }
 }
 

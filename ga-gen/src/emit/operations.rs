@@ -1,9 +1,9 @@
-//! Tokens of the operations: operator impls, traits of the algebra, kernels.
+//! Tokens of the operations: operator impls, traits of the algebra.
 
 use super::{code, types};
-use crate::formula;
 use crate::infer::Output;
 use crate::item::{Item, Operation};
+use crate::print;
 use crate::product::Kind;
 use crate::spec::Spec;
 use proc_macro2::{Ident, TokenStream};
@@ -68,7 +68,7 @@ pub(super) fn emit(spec: &Spec, item: &Item) -> TokenStream {
         Output::Scalar => quote!(T),
         Output::Type(index) => types::path(spec, index),
     };
-    let doc = formula::documentation(spec, item);
+    let doc = print::documentation(spec, item);
     let body = body(spec, item);
     let operand = |index: usize| types::path(spec, item.parameters[index].1);
     let receiver = code::reads(&item.program, "a").then(|| quote!(let a = self;));
@@ -144,21 +144,6 @@ pub(super) fn emit(spec: &Spec, item: &Item) -> TokenStream {
         }
         Operation::Undual(_) => {
             unary_trait(spec, item, &format_ident!("Undual"), &format_ident!("undual"), &output, &doc, &body)
-        }
-        Operation::Kernel(index) => {
-            let source = &spec.kernels[index];
-            let (visibility, name, docs) = (&spec.visibility, &source.name, &source.docs);
-            let parameters = item.parameters.iter().map(|(name, ty)| {
-                let (name, ty) = (code::identifier(name), types::path(spec, *ty));
-                quote!(#name: #ty)
-            });
-            quote! {
-                #(#docs)*
-                #[doc = ""]
-                #[doc = #doc]
-                #[inline]
-                #visibility fn #name<T: #scalar>(#(#parameters),*) -> #output { #body }
-            }
         }
     }
 }

@@ -350,7 +350,7 @@ pub(super) fn to_dynamic(spec: &Spec, index: usize) -> TokenStream {
     }
 }
 
-fn rational(value: Rational) -> TokenStream {
+pub(super) fn rational(value: Rational) -> TokenStream {
     let part = |n: i128| Literal::i32_unsuffixed(i32::try_from(n).unwrap_or(i32::MAX));
     let (magnitude, denominator) = (part(value.numerator().abs()), part(value.denominator()));
     if value.is_negative() {

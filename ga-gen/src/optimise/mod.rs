@@ -9,7 +9,7 @@ mod scale;
 mod squares;
 
 use crate::field::Fingerprint;
-use crate::program::{Builder, Entry, Node, NodeId, Product, Program, Scaled, Step, Term, Value};
+use crate::program::{Builder, Call, CallNode, Entry, Node, NodeId, Product, Program, Scaled, Step, Term, Value};
 use crate::scalar::Rational;
 use std::collections::BTreeMap;
 
@@ -85,7 +85,11 @@ fn operands(node: &Node) -> Vec<NodeId> {
     match node {
         Node::Input(_) => vec![],
         Node::Sum(terms) => terms.iter().flat_map(|term| term.factors.iter().copied()).collect(),
-        Node::Quotient(_, id) | Node::Sqrt(id) => vec![*id],
+        Node::Quotient(_, id) | Node::Sqrt(id) | Node::Part(id, _) => vec![*id],
+        Node::Call(call) => {
+            let fields = call.arguments.iter().flat_map(|(_, fields)| fields);
+            fields.filter_map(|(_, value)| value.node).collect()
+        }
     }
 }
 
@@ -112,9 +116,10 @@ pub fn optimise(builder: &Builder, outputs: &[(String, Scaled)]) -> Program {
 
 /// Names the steps and lists them in dependency order.
 fn schedule(graph: &Graph) -> Program {
-    // A step must not hide a parameter.
+    // A step must not hide a parameter, nor a function that is called.
     let parameters = graph.nodes.iter().filter_map(|work| match &work.node {
         Node::Input(path) => path.split('.').next().map(|root| (root.to_string(), 1)),
+        Node::Call(call) => Some((call.function.clone(), 1)),
         _ => None,
     });
     let taken = parameters.collect();
@@ -153,9 +158,25 @@ impl Scheduler<'_> {
                 let value = Value::Sqrt(self.name(*radicand));
                 self.push(hint, value)
             }
+            Node::Call(call) => {
+                let value = Value::Call(self.call(call));
+                self.push(hint, value)
+            }
+            Node::Part(call, path) if path.is_empty() => self.name(*call),
+            Node::Part(call, path) => format!("{}.{path}", self.name(*call)),
         };
         self.names.insert(id, name.clone());
         name
+    }
+
+    fn call(&mut self, call: &CallNode) -> Call {
+        let mut field = |(name, value): &(String, Scaled)| {
+            let term = Term { coefficient: value.coefficient, factors: value.node.into_iter().collect() };
+            Step { name: name.clone(), value: Value::Sum(self.products(&[term])) }
+        };
+        let arguments = call.arguments.iter();
+        let arguments = arguments.map(|(ty, fields)| (*ty, fields.iter().map(&mut field).collect())).collect();
+        Call { call: call.call, function: call.function.clone(), arguments }
     }
 
     fn push(&mut self, hint: &str, value: Value) -> String {

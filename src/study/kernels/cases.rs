@@ -8,6 +8,7 @@ use crate::algebra::cga::{self, Line, Motor, Plane, Point, Translator};
 use crate::algebra::dynamic::{Dynamic, ToDynamic};
 use crate::algebra::g3::{self, Rotor, Vector};
 use crate::algebra::{Real, Scalar};
+use crate::geometry::formulas;
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 /// Inputs of each kernel: enough that no branch predictor learns them by heart.
@@ -124,7 +125,7 @@ fn motor_times_motor(random: &mut Random) -> Kernel {
 
 fn sphere_of_four_points(random: &mut Random) -> Kernel {
     fn sphere<T: Scalar>([a, b, c, d]: &[Point<T>; 4]) -> cga::Sphere<T> {
-        cga::circumsphere(*a, *b, *c, *d)
+        formulas::circumsphere(*a, *b, *c, *d)
     }
     let inputs: Vec<_> = repeat(|| random.tetrahedron());
     Kernel::new("sphere of four points", "dual(A ^ B ^ C ^ D), normalised")
@@ -133,12 +134,8 @@ fn sphere_of_four_points(random: &mut Random) -> Kernel {
         .with(Way::dynamic(
             &inputs,
             |points| points.map(|point| point.to_dynamic()),
-            |[a, b, c, d]: &[Multi<cga::Algebra>; 4]| {
-                let sphere = (&(&(a ^ b) ^ c) ^ d).dual()?;
-                let weight = sphere.coefficient(EBAR) - sphere.coefficient(E);
-                Some(sphere.scaled(1.0 / weight))
-            },
-            |sphere| sphere.as_ref().map(sphere_of).unwrap_or_default(),
+            |[a, b, c, d]: &[Multi<cga::Algebra>; 4]| formulas::circumsphere_dynamic(a, b, c, d),
+            sphere_of,
         ))
         .with(Way::hand_written(
             &inputs,
