@@ -36,9 +36,12 @@ mod pga2 {
         type Pseudoscalar = [e012];
         /// A general multivector.
         type Multivector = [s, e0, e1, e2, e12, e20, e01, e012];
+    }
 
-        /// Where two lines meet.
-        fn meet_lines(a: Line, b: Line) -> Point { a ^ b }
+    /// Where two lines meet.
+    #[ga_physics::formula(self)]
+    pub fn meet_lines(a: Line, b: Line) -> Point {
+        a ^ b
     }
 }
 
@@ -83,9 +86,12 @@ mod plane {
         /// Twice the first number along x, and the square of the second along y.
         type Derived = 2 * r#type * x + T * T / 3 * y;
         type Complex = [s, x_y];
+    }
 
-        /// A step is called `norm` as well.
-        fn direction(norm: Vector) -> Vector { norm.normalised() }
+    /// A step is called `norm` as well.
+    #[ga_physics::formula(self)]
+    pub fn direction(norm: Vector) -> Vector {
+        norm.normalised()
     }
 }
 
@@ -102,8 +108,11 @@ mod line {
         type Translator: unit + versor = [s = 1, e1_i];
         type Even = [s, e1_o, e1_i, o_i];
         type Odd = [e1, o, i, e1_o_i];
+    }
 
-        fn middle(a: Point, b: Point) -> Vector { (a + b) / 2 }
+    #[ga_physics::formula(self)]
+    pub fn middle(a: Point, b: Point) -> Vector {
+        (a + b) / 2
     }
 }
 

@@ -136,6 +136,12 @@ impl Formula {
     /// For each step: do the results need it?
     #[must_use]
     pub fn needed(&self) -> Vec<bool> {
+        self.read().split_off(self.parameters.len())
+    }
+
+    /// For each operand: do the results need it?
+    #[must_use]
+    pub fn read(&self) -> Vec<bool> {
         let count = self.parameters.len();
         let mut needed = vec![false; count + self.steps.len()];
         self.results.iter().for_each(|result| needed[*result] = true);
@@ -151,6 +157,6 @@ impl Formula {
             }
             operands.into_iter().for_each(|operand| needed[operand] = true);
         }
-        needed.split_off(count)
+        needed
     }
 }

@@ -241,7 +241,7 @@ pub fn item_text(inspected: &Inspected, name: &str, file: &Path) -> Result<Strin
         let name = compiled.formula.source.header.name.to_string();
         if name == wanted {
             let (layout, output) = (formula_layout(spec, compiled), formula_output(spec, compiled));
-            return text(spec, &wanted, [&layout, &output], &compiled.program, emit::formula(spec, compiled))
+            return text(spec, &wanted, [&layout, &output], &compiled.program, emit::formula_function(spec, compiled))
                 .map_err(fault);
         }
         known.push(name);

@@ -13,13 +13,18 @@ use quote::{ToTokens, quote};
 /// The function of a formula, and its dynamic twin where one is asked for.
 #[must_use]
 pub fn formula(spec: &Spec, compiled: &Compiled) -> TokenStream {
-    let source = &compiled.formula.source;
-    let spec = seen_through(spec, &source.options.path);
-    let mut tokens = function(&spec, compiled);
-    if let Some(name) = &source.options.dynamic {
+    let mut tokens = formula_function(spec, compiled);
+    if let Some(name) = &compiled.formula.source.options.dynamic {
+        let spec = seen_through(spec, &compiled.formula.source.options.path);
         tokens.extend(twin::twin(&spec, compiled, name));
     }
     tokens
+}
+
+/// The function alone.
+#[must_use]
+pub fn formula_function(spec: &Spec, compiled: &Compiled) -> TokenStream {
+    function(&seen_through(spec, &compiled.formula.source.options.path), compiled)
 }
 
 /// The algebra as code outside of its module sees it: every type is reached through the path of the module.

@@ -10,7 +10,7 @@ mod operations;
 mod twin;
 mod types;
 
-pub use formula::formula;
+pub use formula::{formula, formula_function};
 
 use crate::item::{self, Item, Operation};
 use crate::signature::Kind;
@@ -64,13 +64,14 @@ pub fn algebra(spec: &Spec, chain: &[TokenStream]) -> syn::Result<TokenStream> {
     Ok(result)
 }
 
-/// The types of the base algebra, by their own names: so every type of this algebra is found in its module.
+/// The types of the base algebra, by their own names: so every type of this algebra is found in its module. Hidden, so
+/// that messages of the compiler go on naming them where they are declared.
 fn shared(spec: &Spec) -> TokenStream {
     let Some(base) = &spec.extends else { return TokenStream::new() };
     let names: Vec<_> = spec.types.iter().filter(|ty| ty.shared).map(|ty| &ty.name).collect();
     let visibility = &spec.visibility;
     quote! {
-        #[doc(no_inline)]
+        #[doc(hidden)]
         #[allow(unused_imports, reason = "for formulas and for whoever wants one place to look")]
         #visibility use #base::{#(#names),*};
     }

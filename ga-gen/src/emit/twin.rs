@@ -27,14 +27,15 @@ pub(super) fn twin(spec: &Spec, compiled: &Compiled, name: &Ident) -> TokenStrea
     let header = &formula.source.header;
     let (path, visibility) = (&formula.source.options.path, &header.visibility);
     let multivector = quote!(::ga_physics::algebra::dynamic::Dynamic<#path::Algebra, T>);
-    let printer = Printer { spec, compiled, formula };
+    let printer = Printer { spec, compiled, formula, multivector: &multivector };
     let parameters = (0..formula.parameters.len()).map(|index| {
         let name = printer.name(index);
         quote!(#name: &#multivector)
     });
     let needed = formula.needed();
     let steps = (0..formula.steps.len()).filter(|index| needed[*index]).map(|index| printer.statement(index));
-    let unread = (0..formula.parameters.len()).map(|index| {
+    let read = formula.read();
+    let unread = (0..formula.parameters.len()).filter(|index| !read[*index]).map(|index| {
         let name = printer.name(index);
         quote!(let _ = #name;)
     });
@@ -65,6 +66,7 @@ struct Printer<'a> {
     spec: &'a Spec,
     compiled: &'a Compiled,
     formula: &'a Formula,
+    multivector: &'a TokenStream,
 }
 
 impl Printer<'_> {
@@ -92,13 +94,13 @@ impl Printer<'_> {
             Operation::Normalised(value) => self.normalised(index, value),
             Operation::Sqrt(value) => {
                 let value = self.scalar(value);
-                scalar_multivector(&quote!(::ga_physics::algebra::Scalar::sqrt(#value)))
+                self.scalar_multivector(&quote!(::ga_physics::algebra::Scalar::sqrt(#value)))
             }
             Operation::Quotient(a, b) => {
                 let (a, b) = (self.reference(a), self.scalar(b));
                 quote!((#a).scaled(T::ratio(1, 1) / #b))
             }
-            Operation::Component(of, component) => scalar_multivector(&self.component(*of, *component)),
+            Operation::Component(of, component) => self.scalar_multivector(&self.component(*of, *component)),
             Operation::Call { function, arguments, .. } => {
                 let arguments = arguments.iter().map(|argument| self.reference(argument));
                 // The types of the arguments are those that the program found: the call is the same call.
@@ -113,8 +115,11 @@ impl Printer<'_> {
                 let part = Literal::usize_unsuffixed(*part);
                 let value = if tuple { quote!(#call_name.#part) } else { quote!(#call_name) };
                 match step.ty {
-                    Some(Output::Type(_)) => quote!(::ga_physics::algebra::dynamic::ToDynamic::to_dynamic(&#value)),
-                    _ => scalar_multivector(&value),
+                    Some(Output::Type(_)) => {
+                        let algebra = &self.formula.source.options.path;
+                        quote!(::ga_physics::algebra::dynamic::ToDynamic::<#algebra::Algebra, T>::to_dynamic(&#value))
+                    }
+                    _ => self.scalar_multivector(&value),
                 }
             }
         };
@@ -140,7 +145,8 @@ impl Printer<'_> {
                     let (blade, value) = (Literal::u32_unsuffixed(blade.0), rational(value));
                     quote!((#blade, #value))
                 });
-                quote!(::ga_physics::algebra::dynamic::Dynamic::from_terms(&[#(#entries),*]))
+                let multivector = self.multivector;
+                quote!(<#multivector>::from_terms(&[#(#entries),*]))
             }
             Expression::Sum(parts) => self.sum(parts),
             Expression::Product(kind, a, b) => {
@@ -167,6 +173,11 @@ impl Printer<'_> {
                 self.method(v, &quote!(apply(#x)))
             }
         }
+    }
+
+    fn scalar_multivector(&self, value: &TokenStream) -> TokenStream {
+        let multivector = self.multivector;
+        quote!(<#multivector>::from_terms(&[(0, #value)]))
     }
 
     fn method(&self, receiver: &Expression, call: &TokenStream) -> TokenStream {
@@ -289,10 +300,6 @@ impl Printer<'_> {
         }
         fields.into_iter().map(|field| field.unwrap_or_else(|| quote!(T::ratio(0, 1)))).collect()
     }
-}
-
-fn scalar_multivector(value: &TokenStream) -> TokenStream {
-    quote!(::ga_physics::algebra::dynamic::Dynamic::from_terms(&[(0, #value)]))
 }
 
 /// The coefficient of a blade of the declared basis, from those of the orthonormal one: with `o = c (p - m)/2`,

@@ -15,7 +15,9 @@ pub(super) fn pull_scales(graph: &mut Graph) {
     }
     for index in 0..graph.outputs.len() {
         let (name, terms) = graph.outputs[index].clone();
-        graph.outputs[index].1 = pulled(graph, terms, &name);
+        // `0.e1` is a number of the first of several results; a bare scalar has no name, or a number.
+        let field = name.rsplit('.').next().filter(|field| field.starts_with(char::is_alphabetic));
+        graph.outputs[index].1 = pulled(graph, terms, field.unwrap_or("result"));
     }
 }
 
