@@ -10,20 +10,23 @@ use crate::program::{Counts, Program};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Plan {
     wanted: Vec<usize>,
+    /// The way at points beyond.
+    otherwise: usize,
+    taken: Vec<usize>,
     ways: Vec<usize>,
 }
 
 impl Plan {
-    fn new(wanted: Vec<usize>) -> Self {
-        Self { wanted, ways: vec![] }
+    fn new(wanted: Vec<usize>, otherwise: usize) -> Self {
+        Self { wanted, otherwise, taken: vec![], ways: vec![] }
     }
 
-    /// The way to take at the next point.
+    /// The way to take at the next point; the last where there are fewer.
     pub fn choose(&mut self, ways: usize) -> usize {
-        let way = self.wanted.get(self.ways.len()).copied().unwrap_or(0);
+        let way = self.wanted.get(self.ways.len()).copied().unwrap_or(self.otherwise).min(ways - 1);
         self.ways.push(ways);
-        // A way that was there under another plan may have gone.
-        if way < ways { way } else { 0 }
+        self.taken.push(way);
+        way
     }
 }
 
@@ -45,20 +48,36 @@ pub fn cheapest<R, E>(
     program: impl Fn(&R) -> &Program,
 ) -> Result<Option<R>, E> {
     let Some((mut best, mut plan)) = lower(Plan::default())? else { return Ok(None) };
+    // Products that pay only together: the same way everywhere.
+    let most = plan.ways.iter().copied().max().unwrap_or(1);
+    let uniform = if plan.ways.len() > 1 { 1..most } else { 1..1 };
+    for way in uniform {
+        improve(&mut lower, &program, Plan::new(vec![], way), &mut best, &mut plan)?;
+    }
     let mut point = 0;
     while point < plan.ways.len().min(MOST_POINTS) {
-        for way in 1..plan.ways[point] {
-            let mut wanted = plan.wanted.clone();
-            wanted.resize(point.max(wanted.len()), 0);
-            wanted.truncate(point);
-            wanted.push(way);
-            if let Some((other, used)) = lower(Plan::new(wanted))?
-                && cost(program(&other).counts()) < cost(program(&best).counts())
-            {
-                (best, plan) = (other, used);
-            }
+        for way in (0..plan.ways[point]).filter(|way| plan.taken[point] != *way).collect::<Vec<_>>() {
+            let mut wanted = plan.taken.clone();
+            wanted[point] = way;
+            improve(&mut lower, &program, Plan::new(wanted, plan.otherwise), &mut best, &mut plan)?;
         }
         point += 1;
     }
     Ok(Some(best))
+}
+
+/// Lowers by a plan, and keeps the result if it is cheaper.
+fn improve<R, E>(
+    lower: &mut impl FnMut(Plan) -> Result<Option<(R, Plan)>, E>,
+    program: &impl Fn(&R) -> &Program,
+    trial: Plan,
+    best: &mut R,
+    plan: &mut Plan,
+) -> Result<(), E> {
+    if let Some((other, used)) = lower(trial)?
+        && cost(program(&other).counts()) < cost(program(best).counts())
+    {
+        (*best, *plan) = (other, used);
+    }
+    Ok(())
 }

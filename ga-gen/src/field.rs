@@ -12,6 +12,10 @@ use crate::scalar::Rational;
 /// 2^61 - 1.
 const PRIME: u128 = (1 << 61) - 1;
 
+/// The largest numerator of a constant that is recognised. A random residue is taken for one with probability 1e-15 at
+/// one point.
+const LARGEST_CONSTANT: u64 = 64;
+
 /// Number of random points in a fingerprint.
 pub const POINTS: usize = 2;
 
@@ -19,11 +23,13 @@ pub const POINTS: usize = 2;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Residue(u64);
 
+#[expect(clippy::cast_possible_truncation, reason = "both parts are below 2^61 by their masks")]
 fn reduce(value: u128) -> Residue {
     // 2^61 = 1 modulo the prime: fold the high bits once, then subtract at most once.
-    let folded = (value & PRIME) + (value >> 61);
-    let folded = (folded & PRIME) + (folded >> 61);
-    Residue(u64::try_from(if folded == PRIME { 0 } else { folded }).unwrap_or(0))
+    const SHORT: u64 = PRIME as u64;
+    let folded = (value as u64 & SHORT) + (value >> 61) as u64;
+    let folded = (folded & SHORT) + (folded >> 61);
+    Residue(if folded >= SHORT { folded - SHORT } else { folded })
 }
 
 impl Residue {
@@ -62,10 +68,32 @@ impl Residue {
         result
     }
 
-    /// Multiplicative inverse by Fermat's little theorem; 0 maps to 0.
+    /// Multiplicative inverse by Euclid's algorithm; 0 maps to 0.
     #[must_use]
     pub fn inverse(self) -> Self {
-        self.power(PRIME - 2)
+        // r = (something) * PRIME + t * self throughout.
+        let (mut r, mut next_r) = (PRIME.cast_signed(), i128::from(self.0));
+        let (mut t, mut next_t) = (0_i128, 1_i128);
+        while next_r != 0 {
+            let quotient = r / next_r;
+            (r, next_r) = (next_r, r - quotient * next_r);
+            (t, next_t) = (next_t, t - quotient * next_t);
+        }
+        match (r, t < 0) {
+            (1, false) => reduce(t.unsigned_abs()),
+            (1, true) => reduce(t.unsigned_abs()).negated(),
+            _ => Self::ZERO,
+        }
+    }
+
+    /// The integer of small magnitude that it is, if there is one.
+    fn small(self) -> Option<i128> {
+        let (value, bound) = (u128::from(self.0), u128::from(LARGEST_CONSTANT));
+        if value <= bound {
+            Some(value.cast_signed())
+        } else {
+            (PRIME - value <= bound).then(|| -(PRIME - value).cast_signed())
+        }
     }
 
     /// A square root, where there is one: x^((p+1)/4), because p = 3 modulo 4.
@@ -133,8 +161,10 @@ impl Fingerprint {
             return None;
         }
         // Coefficients that arise are small dyadic numbers and small integers.
-        let candidates = [1, 2, 4, 8, 16].into_iter().flat_map(|d| (-64..=64).filter_map(move |n| Rational::new(n, d)));
-        candidates.into_iter().find(|value| Self::constant(*value) == self)
+        [1, 2, 4, 8, 16].into_iter().find_map(|denominator| {
+            let numerator = self.0[0].times(Rational::from(denominator).into()).small()?;
+            Rational::new(numerator, denominator.into())
+        })
     }
 
     /// The constant `c` with `self = c * other`, if there is one.

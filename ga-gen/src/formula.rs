@@ -16,7 +16,7 @@ use crate::infer::{self, Output};
 use crate::item::field_names;
 use crate::lower::{Components, Lowering, reversed};
 use crate::normalise::{by_norm, by_weight};
-use crate::optimise::optimise;
+use crate::optimise::{Effort, optimise};
 use crate::program::{Builder, CallNode, NodeId, Program, Scaled};
 use crate::scalar::Rational;
 use crate::spec::Spec;
@@ -86,7 +86,7 @@ fn cheapest_in(spec: &Spec, formula: &Formula, world: &[Vec<Fingerprint>]) -> sy
         if lowered.world != world {
             return Ok(None);
         }
-        let program = optimise(&lowered.builder, &outputs(spec, formula, &lowered.results));
+        let program = optimise(&lowered.builder, &outputs(spec, formula, &lowered.results), Effort::Whole);
         let (signs, arguments) = (lowered.signs, lowered.arguments);
         Ok(Some((Compiled { formula: formula.clone(), program, signs, arguments }, plan)))
     };

@@ -5,7 +5,7 @@ use crate::expression::Expression;
 use crate::infer::{self, Output};
 use crate::lower::{Components, Lowering, Schedule};
 use crate::normalise::by_weight;
-use crate::optimise::optimise;
+use crate::optimise::{Effort, optimise};
 use crate::product::Kind;
 use crate::program::{Program, Scaled};
 use crate::scalar::Rational;
@@ -112,7 +112,7 @@ pub fn compile(spec: &Spec, operation: Operation) -> syn::Result<Option<Item>> {
         let (builder, plan) = lowering.finish();
         Ok(lowered.map(|(output, fields)| {
             let outputs: Vec<(String, Scaled)> = field_names(spec, output).into_iter().zip(fields).collect();
-            ((output, optimise(&builder, &outputs)), plan)
+            ((output, optimise(&builder, &outputs, Effort::Product)), plan)
         }))
     };
     let best = cheapest(lower, |(_, program)| program)?;
@@ -129,7 +129,7 @@ pub fn unit_defects(spec: &Spec, ty: usize) -> Program {
     let product = lowering.product(Kind::Geometric, &a, &crate::lower::reversed(&a));
     let outputs: Vec<(String, Scaled)> =
         product.into_iter().map(|(blade, value)| (spec.signature.name(blade), value)).collect();
-    optimise(&lowering.builder, &outputs)
+    optimise(&lowering.builder, &outputs, Effort::Product)
 }
 
 /// The names of the fields of a result; a scalar has one without a name.

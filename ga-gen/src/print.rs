@@ -37,7 +37,10 @@ fn argument_text(spec: &Spec, ty: Option<usize>, fields: &[Step]) -> String {
 fn value_text(value: &Value) -> String {
     match value {
         Value::Call(call) => call.function.clone(),
-        Value::Quotient(numerator, denominator) => format!("{numerator} / {denominator}"),
+        Value::Quotient(numerator, denominator) => {
+            let sign = if numerator.coefficient.is_negative() { "-" } else { "" };
+            format!("{sign}{} / {denominator}", product_text(numerator))
+        }
         Value::Sqrt(radicand) => format!("sqrt({radicand})"),
         Value::Sum(products) if products.is_empty() => "0".into(),
         Value::Sum(products) => {

@@ -64,7 +64,7 @@ pub enum Node {
     /// A sum of products.
     Sum(Vec<Term>),
     /// `numerator / denominator`.
-    Quotient(Rational, NodeId),
+    Quotient(Term, NodeId),
     /// The square root.
     Sqrt(NodeId),
     /// A call of another formula: no number itself, but its parts are.
@@ -72,6 +72,9 @@ pub enum Node {
     /// A number of the result of a call, by its path within it (`e1`, `0.e1`; empty for a bare scalar).
     Part(NodeId, String),
 }
+
+/// Named numbers of a value.
+pub type Fields = Vec<(String, Scaled)>;
 
 /// A call of another formula, of which nothing is known but its arguments.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -81,7 +84,7 @@ pub struct CallNode {
     /// The function, for reading.
     pub function: String,
     /// The arguments: a declared type, or none for a scalar, and its fields.
-    pub arguments: Vec<(Option<usize>, Vec<(String, Scaled)>)>,
+    pub arguments: Vec<(Option<usize>, Fields)>,
 }
 
 /// A node with its name and values.
@@ -204,7 +207,8 @@ impl Builder {
         };
         let fingerprint = self.entries[id].fingerprint.map(|value| value.inverse());
         let fingerprint = fingerprint.times(Fingerprint::constant(factor));
-        Some(self.intern(Node::Quotient(factor, id), hint, fingerprint))
+        let numerator = Term { coefficient: factor, factors: vec![] };
+        Some(self.intern(Node::Quotient(numerator, id), hint, fingerprint))
     }
 
     /// The sign, 1 or -1, of a scalar that is a sum of squares with coefficients of one sign, or a constant.
@@ -279,7 +283,7 @@ pub enum Value {
     /// A sum of products; positive terms stand first.
     Sum(Vec<Product>),
     /// `numerator / denominator`.
-    Quotient(Rational, String),
+    Quotient(Product, String),
     /// The square root.
     Sqrt(String),
     /// A call of another formula; its parts are named by the step.
@@ -341,7 +345,7 @@ impl Counts {
 impl Value {
     fn constants(&self) -> Vec<Rational> {
         match self {
-            Self::Quotient(numerator, _) => vec![*numerator],
+            Self::Quotient(numerator, _) => vec![numerator.coefficient],
             Self::Sqrt(_) | Self::Call(_) => vec![],
             Self::Sum(products) => products.iter().map(|product| product.coefficient).collect(),
         }
@@ -375,7 +379,10 @@ impl Program {
         for value in self.values() {
             match value {
                 Value::Call(_) => {}
-                Value::Quotient(..) => counts.div += 1,
+                Value::Quotient(numerator, _) => {
+                    counts.div += 1;
+                    count_sum(std::slice::from_ref(numerator), &mut counts);
+                }
                 Value::Sqrt(_) => counts.sqrt += 1,
                 Value::Sum(products) => count_sum(products, &mut counts),
             }

@@ -118,7 +118,7 @@ impl Lowering<'_> {
     pub(crate) fn split_depth(&mut self, a: &Components, b: &Components) -> Option<Depth> {
         let ways: Vec<Option<Depth>> = match self.schedule() {
             Schedule::Split => vec![None, Some(Depth::Pair), Some(Depth::PairAndVector)],
-            Schedule::Stable if self.is_stored_split(a, b) => vec![None, Some(Depth::Pair)],
+            Schedule::Stable if self.is_stored_split(a, b) => vec![Some(Depth::Pair), None],
             Schedule::Stable => return None,
         };
         ways[self.choose(ways.len())]

@@ -27,7 +27,9 @@ crate::algebra! {
     type Sphere = x*e1 + y*e2 + z*e3 + no + (x*x + y*y + z*z - rho_sq)/2*ninf;
     /// A plane in dual form: unit normal, and distance from the origin along it.
     type Plane: unit = [e1, e2, e3, ninf];
-    /// A flat point `X ^ ninf`: where a line meets a plane.
+    /// A flat point `X ^ ninf` of weight 1: where a line meets a plane, divided by the weight.
+    type FinitePoint = x*e1_ninf + y*e2_ninf + z*e3_ninf + no_ninf;
+    /// A flat point of any weight: where a line meets a plane, or a direction.
     type FlatPoint = [e1_ninf, e2_ninf, e3_ninf, no_ninf];
     /// A general vector: a point, sphere or plane of any weight, or their sum.
     type Round = [e1, e2, e3, no, ninf];

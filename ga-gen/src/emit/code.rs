@@ -32,7 +32,7 @@ pub(super) fn value(value: &Value) -> TokenStream {
     match value {
         Value::Call(_) => TokenStream::new(),
         Value::Quotient(numerator, denominator) => {
-            let (numerator, denominator) = (constant(*numerator), path(denominator));
+            let (numerator, denominator) = (signed_product(numerator), path(denominator));
             quote!(#numerator / #denominator)
         }
         Value::Sqrt(radicand) => {
@@ -132,7 +132,8 @@ const KEYWORDS: [&str; 53] = [
 pub(super) fn reads(program: &Program, parameter: &str) -> bool {
     let reads = |name: &String| name.split('.').next() == Some(parameter);
     program.values().into_iter().any(|value| match value {
-        Value::Quotient(_, name) | Value::Sqrt(name) => reads(name),
+        Value::Quotient(numerator, name) => reads(name) || numerator.factors.iter().any(reads),
+        Value::Sqrt(name) => reads(name),
         Value::Sum(products) => products.iter().any(|product| product.factors.iter().any(reads)),
         Value::Call(_) => false,
     })

@@ -4,7 +4,10 @@
 //! once is inlined where that costs nothing (`flatten`); equal constant factors within a sum are pulled into one
 //! (`scale`). Each preserves the value exactly as a rational function; none touches a difference of squares.
 
+mod factor;
 mod flatten;
+mod fuse;
+mod moves;
 mod scale;
 mod squares;
 
@@ -19,6 +22,13 @@ struct Work {
     hint: String,
     node: Node,
     fingerprint: Fingerprint,
+}
+
+/// Where a sum stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Place {
+    Node(NodeId),
+    Output(usize),
 }
 
 /// The working graph: nodes by id, and the outputs.
@@ -37,6 +47,44 @@ impl Graph {
         })
     }
 
+    /// The terms of a sum or an output; none of anything else.
+    fn terms(&self, place: Place) -> &[Term] {
+        match place {
+            Place::Output(index) => &self.outputs[index].1,
+            Place::Node(id) => match &self.nodes[id].node {
+                Node::Sum(terms) => terms,
+                _ => &[],
+            },
+        }
+    }
+
+    /// Changes the terms of a sum or an output; does nothing to anything else.
+    fn edit(&mut self, place: Place, change: impl FnOnce(&mut Vec<Term>)) {
+        match place {
+            Place::Output(index) => change(&mut self.outputs[index].1),
+            Place::Node(id) => {
+                if let Node::Sum(terms) = &mut self.nodes[id].node {
+                    change(terms);
+                }
+            }
+        }
+    }
+
+    /// A new node.
+    fn push(&mut self, node: Node, hint: &str) -> NodeId {
+        let fingerprint = match &node {
+            Node::Sum(terms) => self.value_of(terms),
+            Node::Quotient(numerator, denominator) => {
+                let inverse = self.nodes[*denominator].fingerprint.map(|value| value.inverse());
+                self.value_of(std::slice::from_ref(numerator)).times(inverse)
+            }
+            // Passes make no other nodes.
+            _ => Fingerprint::constant(Rational::ZERO),
+        };
+        self.nodes.push(Work { hint: hint.into(), node, fingerprint });
+        self.nodes.len() - 1
+    }
+
     /// A node for a sum, for use in another one: a known one up to a rational factor, or a new one.
     fn sum(&mut self, terms: Vec<Term>, hint: String, user: NodeId) -> (Rational, NodeId) {
         let fingerprint = self.value_of(&terms);
@@ -46,10 +94,7 @@ impl Graph {
             let factor = if same { fingerprint.ratio_to(work.fingerprint)? } else { return None };
             (!self.depends(id, user)).then_some((factor, id))
         });
-        known.unwrap_or_else(|| {
-            self.nodes.push(Work { hint, node: Node::Sum(terms), fingerprint });
-            (Rational::ONE, self.nodes.len() - 1)
-        })
+        known.unwrap_or_else(|| (Rational::ONE, self.push(Node::Sum(terms), &hint)))
     }
 
     /// Is a node computed from another one?
@@ -85,7 +130,8 @@ fn operands(node: &Node) -> Vec<NodeId> {
     match node {
         Node::Input(_) => vec![],
         Node::Sum(terms) => terms.iter().flat_map(|term| term.factors.iter().copied()).collect(),
-        Node::Quotient(_, id) | Node::Sqrt(id) | Node::Part(id, _) => vec![*id],
+        Node::Quotient(numerator, id) => [&numerator.factors[..], &[*id]].concat(),
+        Node::Sqrt(id) | Node::Part(id, _) => vec![*id],
         Node::Call(call) => {
             let fields = call.arguments.iter().flat_map(|(_, fields)| fields);
             fields.filter_map(|(_, value)| value.node).collect()
@@ -93,9 +139,18 @@ fn operands(node: &Node) -> Vec<NodeId> {
     }
 }
 
+/// How much time a program is worth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    /// One of the some thousand products of an algebra, most of which nobody calls: no search for common factors.
+    Product,
+    /// A formula that somebody wrote.
+    Whole,
+}
+
 /// Turns the parts of a graph that the outputs need into a program.
 #[must_use]
-pub fn optimise(builder: &Builder, outputs: &[(String, Scaled)]) -> Program {
+pub fn optimise(builder: &Builder, outputs: &[(String, Scaled)], effort: Effort) -> Program {
     let work = |e: &Entry| Work { hint: e.hint.clone(), node: e.node.clone(), fingerprint: e.fingerprint };
     let nodes = builder.entries().iter().map(work).collect();
     let outputs = outputs
@@ -109,8 +164,14 @@ pub fn optimise(builder: &Builder, outputs: &[(String, Scaled)]) -> Program {
     flatten::flatten(&mut graph);
     squares::complete_squares(&mut graph);
     flatten::flatten(&mut graph);
+    if effort == Effort::Whole {
+        factor::extract(&mut graph);
+        flatten::flatten(&mut graph);
+    }
+    fuse::fuse_quotients(&mut graph);
     scale::pull_scales(&mut graph);
     flatten::flatten(&mut graph);
+    moves::move_scales(&mut graph);
     schedule(&graph)
 }
 
@@ -151,7 +212,8 @@ impl Scheduler<'_> {
                 self.push(hint, value)
             }
             Node::Quotient(numerator, denominator) => {
-                let value = Value::Quotient(*numerator, self.name(*denominator));
+                let numerator = self.product(numerator);
+                let value = Value::Quotient(numerator, self.name(*denominator));
                 self.push(hint, value)
             }
             Node::Sqrt(radicand) => {
@@ -187,14 +249,12 @@ impl Scheduler<'_> {
         name
     }
 
+    fn product(&mut self, term: &Term) -> Product {
+        Product { coefficient: term.coefficient, factors: term.factors.iter().map(|id| self.name(*id)).collect() }
+    }
+
     fn products(&mut self, terms: &[Term]) -> Vec<Product> {
-        let mut products: Vec<Product> = terms
-            .iter()
-            .map(|term| Product {
-                coefficient: term.coefficient,
-                factors: term.factors.iter().map(|id| self.name(*id)).collect(),
-            })
-            .collect();
+        let mut products: Vec<Product> = terms.iter().map(|term| self.product(term)).collect();
         // Positive terms first: then no leading minus is left unless all terms are negative.
         products.sort_by_key(|product| product.coefficient.is_negative());
         products

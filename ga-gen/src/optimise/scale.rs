@@ -1,6 +1,6 @@
 //! Pulls equal constant factors of several terms of a sum into one: `x + 2 a b + 2 c d` becomes `x + 2 (a b + c d)`.
 
-use super::{Graph, Work};
+use super::Graph;
 use crate::program::{Node, Term};
 use crate::scalar::Rational;
 use std::collections::BTreeMap;
@@ -37,9 +37,8 @@ fn pulled(graph: &mut Graph, terms: Vec<Term>, hint: &str) -> Vec<Term> {
         let scale = if first_positive.is_some() { magnitude } else { -magnitude };
         let inverse = scale.recip().unwrap_or(Rational::ONE);
         group.iter_mut().for_each(|term| term.coefficient = term.coefficient * inverse);
-        let fingerprint = graph.value_of(&group);
-        graph.nodes.push(Work { hint: format!("{hint}_part"), node: Node::Sum(group), fingerprint });
-        result.push(Term { coefficient: scale, factors: vec![graph.nodes.len() - 1] });
+        let part = graph.push(Node::Sum(group), &format!("{hint}_part"));
+        result.push(Term { coefficient: scale, factors: vec![part] });
     }
     result
 }
