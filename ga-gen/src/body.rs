@@ -8,7 +8,7 @@ use crate::blade::Blade;
 use crate::expression::Expression;
 use crate::header::Source;
 use crate::infer::Output;
-use proc_macro2::Span;
+use proc_macro2::{Span, TokenStream};
 use syn::{Ident, Path};
 
 /// A formula over a given algebra.
@@ -33,8 +33,8 @@ pub struct Formula {
 pub struct Step {
     /// What to call it.
     pub name: String,
-    /// Where a fault of it stands.
-    pub span: Span,
+    /// Where a fault of it stands: from the first of these tokens to the last.
+    pub place: TokenStream,
     /// What it computes.
     pub operation: Operation,
     /// Its type, where one is stated.
@@ -52,8 +52,8 @@ pub enum Operation {
         value: Expression,
         /// Whether it is divided.
         normalised: bool,
-        /// Where the type stands.
-        declared: Span,
+        /// The type, as written.
+        declared: Ident,
     },
     /// Divided by its norm.
     Normalised(Expression),

@@ -87,7 +87,13 @@ pub fn moved(
     let Output::Type(index) = ty else { return Some(fields.to_vec()) };
     let components = lowering.of_type(&spec.types[index], fields, "local");
     let image = lowering.sandwich_by(Sandwich::Commutator, translator, &components);
-    infer::fit(spec, &mut lowering.builder, &image, index)
+    held(lowering, &image, index)
+}
+
+/// The fields of a type that hold a value, of a factored type as well.
+pub fn held(lowering: &mut Lowering<'_>, value: &Components, index: usize) -> Option<Vec<Scaled>> {
+    let fields = infer::fit(lowering.spec, &mut lowering.builder, value, index);
+    fields.or_else(|| lowering.factor_fields(value, index))
 }
 
 /// Proves that a formula has the same value in its frame and in the world; `local` is none where it has no value in its
@@ -103,7 +109,7 @@ pub fn prove(spec: &Spec, formula: &Formula, local: Option<&Lowered>) -> syn::Re
     };
     let mut world = formula.clone();
     world.source.options.frame = Frame::World;
-    let world = lower(spec, &world, Plan::default()).map(|(lowered, _)| lowered);
+    let world = lower(spec, &world, Plan::default()).map(|(world, _)| world);
     match (&world, local) {
         (Ok(world), Some(local)) if world.world == local.world => return Ok(()),
         // Wrong in the world as well: what is wrong is said there, not here.
@@ -147,7 +153,7 @@ fn tied(spec: &Spec, formula: &Formula, origin: &Ident) -> syn::Result<Vec<(proc
                     let value = &parameters[*index];
                     let image = lowering.sandwich_by(Sandwich::Commutator, &translator, value);
                     let unread = formula.unused.iter().any(|name| *name == fixed.text);
-                    !unread && infer::fit(spec, &mut lowering.builder, &image, ty).is_none()
+                    !unread && held(&mut lowering, &image, ty).is_none()
                 }
             },
         };

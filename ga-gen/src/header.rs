@@ -6,7 +6,6 @@
 //! pub fn circumsphere(a: Point, b: Point, c: Point, d: Point) -> Sphere { .. }
 //! ```
 
-use crate::lower::Schedule;
 use crate::unsupported;
 use proc_macro2::{Span, TokenStream};
 use syn::parse::{Parse, ParseStream};
@@ -33,8 +32,6 @@ pub struct Options {
     pub frame: Frame,
     /// The name of the same formula over the dynamic multivector.
     pub dynamic: Option<Ident>,
-    /// What may be traded for fewer operations.
-    pub schedule: Schedule,
 }
 
 /// What stands before the body.
@@ -92,7 +89,7 @@ impl Parse for Options {
         if input.peek(Token![=]) {
             return Err(Error::new_spanned(path, unnamed));
         }
-        let mut options = Self { path, frame: Frame::World, dynamic: None, schedule: Schedule::Stable };
+        let mut options = Self { path, frame: Frame::World, dynamic: None };
         while !input.is_empty() {
             input.parse::<Token![,]>()?;
             if !input.is_empty() {
@@ -107,22 +104,14 @@ impl Options {
     fn parse_option(&mut self, input: ParseStream) -> syn::Result<()> {
         let key: Ident = input.parse()?;
         let name = key.to_string();
-        if !["local", "relative", "dynamic", "schedule"].contains(&name.as_str()) {
-            let message = format!(
-                "no option `{name}`; there are `local = a`, `relative = a`, `dynamic = name` and `schedule = split`"
-            );
+        if !["local", "relative", "dynamic"].contains(&name.as_str()) {
+            let message = format!("no option `{name}`; there are `local = a`, `relative = a` and `dynamic = name`");
             return Err(Error::new(key.span(), message));
         }
         input.parse::<Token![=]>()?;
         let value: Ident = input.parse()?;
         match (name.as_str(), &self.frame, &self.dynamic) {
             ("dynamic", _, None) => self.dynamic = Some(value),
-            ("schedule", ..) if self.schedule == Schedule::Stable => {
-                if value != "split" {
-                    return Err(Error::new(value.span(), format!("no schedule `{value}`; there is `split`")));
-                }
-                self.schedule = Schedule::Split;
-            }
             ("local", Frame::World, _) => self.frame = Frame::Local(value),
             ("relative", Frame::World, _) => self.frame = Frame::Relative(value),
             ("local", Frame::Relative(_), _) | ("relative", Frame::Local(_), _) => {
@@ -166,7 +155,7 @@ fn parameter(argument: &FnArg) -> syn::Result<(Ident, Ident)> {
         FnArg::Typed(typed) => typed,
     };
     if let Some(attribute) = typed.attrs.first() {
-        return Err(Error::new(attribute.span(), "a parameter of a formula has no attributes"));
+        return Err(Error::new_spanned(attribute, "a parameter of a formula has no attributes"));
     }
     Ok((name_of(&typed.pat)?, type_name(&typed.ty)?))
 }
@@ -182,11 +171,11 @@ pub fn name_of(pattern: &Pat) -> syn::Result<Ident> {
                 return Err(Error::new(token.span(), "nothing changes in a formula: leave `mut` out"));
             }
             if name.by_ref.is_some() || name.subpat.is_some() || !name.attrs.is_empty() {
-                return Err(Error::new(pattern.span(), "write a name here: a formula has no patterns"));
+                return Err(Error::new_spanned(pattern, "write a name here: a formula has no patterns"));
             }
             Ok(name.ident.clone())
         }
-        other => Err(Error::new(other.span(), "write a name here: a formula has no patterns")),
+        other => Err(Error::new_spanned(other, "write a name here: a formula has no patterns")),
     }
 }
 
@@ -201,10 +190,10 @@ pub fn type_name(ty: &Type) -> syn::Result<Ident> {
         Type::Path(path) if path.qself.is_none() => path.path.get_ident().cloned().ok_or_else(|| {
             let message =
                 "write the bare name of a type of the algebra: the attribute says where it is, and the scalar is `T`";
-            Error::new(ty.span(), message)
+            Error::new_spanned(ty, message)
         }),
-        Type::Reference(_) => Err(Error::new(ty.span(), "operands of a formula are values: leave `&` out")),
-        other => Err(Error::new(other.span(), "a type in a formula is one of the algebra, by name, or `Scalar`")),
+        Type::Reference(_) => Err(Error::new_spanned(ty, "operands of a formula are values: leave `&` out")),
+        other => Err(Error::new_spanned(other, "a type in a formula is one of the algebra, by name, or `Scalar`")),
     }
 }
 
@@ -214,7 +203,7 @@ pub fn type_name(ty: &Type) -> syn::Result<Ident> {
 /// What is no name of a type.
 pub fn type_names(ty: &Type) -> syn::Result<(Vec<Ident>, bool)> {
     match ty {
-        Type::Tuple(tuple) if tuple.elems.is_empty() => Err(Error::new(ty.span(), "a formula has a result")),
+        Type::Tuple(tuple) if tuple.elems.is_empty() => Err(Error::new_spanned(ty, "a formula has a result")),
         Type::Tuple(tuple) => Ok((tuple.elems.iter().map(type_name).collect::<syn::Result<_>>()?, true)),
         single => Ok((vec![type_name(single)?], false)),
     }

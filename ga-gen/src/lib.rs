@@ -7,7 +7,15 @@
 //!        -> expression (multivector operations on typed inputs)
 //!        -> lower -> program (scalar steps, with counts) -> optimise
 //!        -> infer (the smallest declared type that holds the result)
-//!        -> emit (Rust tokens)  and  formula (readable text), both from the same program
+//!        -> emit (Rust tokens)  and  print (readable text), both from the same program
+//! ```
+//!
+//! and of a `#[formula(..)]`, which the algebra's specification macro hands over together with the algebra:
+//!
+//! ```text
+//! tokens -> header (options, signature) -> read (steps, with what the names mean)
+//!        -> formula (lower, choose the cheapest, prove the frame)
+//!        -> emit (the function from its program, the dynamic twin from its steps)  and  print
 //! ```
 //!
 //! An ordinary library: it knows no physics and needs no compiler, so inspection and tests call it directly.
@@ -16,6 +24,7 @@ pub mod alternatives;
 pub mod blade;
 pub mod body;
 pub mod emit;
+mod evaluate;
 pub mod expression;
 pub mod factored;
 pub mod field;

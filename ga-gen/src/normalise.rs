@@ -16,8 +16,8 @@ pub fn by_norm(lowering: &mut Lowering<'_>, a: &Components) -> Option<(Component
     Some((lowering.scaled(a, inverse), sign))
 }
 
-/// Divides by the coefficient that the type fixes; also returns by what it multiplied. One division: the reciprocal carries the factor that most stored
-/// coefficients share.
+/// Divides by the coefficient that the type fixes; also returns by what it multiplied. One division: the reciprocal
+/// carries the factor that most stored coefficients share.
 pub fn by_weight(
     lowering: &mut Lowering<'_>,
     components: &Components,

@@ -3,7 +3,7 @@
 use crate::formula::Compiled;
 use crate::infer::Output;
 use crate::item::Item;
-use crate::program::{Counts, Product, Program, Step, Value};
+use crate::program::{Argument, Counts, Product, Program, Step, Value};
 use crate::scalar::Rational;
 use crate::spec::Spec;
 use std::fmt::Write;
@@ -15,7 +15,7 @@ pub fn program_text(spec: &Spec, program: &Program) -> String {
     for step in &program.steps {
         let value = match &step.value {
             Value::Call(call) => {
-                let arguments = call.arguments.iter().map(|(ty, fields)| argument_text(spec, *ty, fields));
+                let arguments = call.arguments.iter().map(|argument| argument_text(spec, argument));
                 format!("{}({})", call.function, arguments.collect::<Vec<_>>().join(", "))
             }
             other => value_text(other),
@@ -29,7 +29,7 @@ pub fn program_text(spec: &Spec, program: &Program) -> String {
     text
 }
 
-fn argument_text(spec: &Spec, ty: Option<usize>, fields: &[Step]) -> String {
+fn argument_text(spec: &Spec, Argument { ty, fields }: &Argument<Step>) -> String {
     let values: Vec<String> = fields.iter().map(|field| value_text(&field.value)).collect();
     ty.map_or_else(|| values.concat(), |index| format!("{}({})", spec.types[index].name, values.join(", ")))
 }

@@ -73,9 +73,6 @@ pub enum Node {
     Part(NodeId, String),
 }
 
-/// Named numbers of a value.
-pub type Fields = Vec<(String, Scaled)>;
-
 /// A call of another formula, of which nothing is known but its arguments.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CallNode {
@@ -83,8 +80,17 @@ pub struct CallNode {
     pub call: usize,
     /// The function, for reading.
     pub function: String,
-    /// The arguments: a declared type, or none for a scalar, and its fields.
-    pub arguments: Vec<(Option<usize>, Fields)>,
+    /// The arguments, with the value of each field.
+    pub arguments: Vec<Argument<(String, Scaled)>>,
+}
+
+/// An argument of a call.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Argument<Field> {
+    /// Its type, as declared; none for a scalar.
+    pub ty: Option<usize>,
+    /// Its fields, in order; a scalar has one without a name.
+    pub fields: Vec<Field>,
 }
 
 /// A node with its name and values.
@@ -237,7 +243,7 @@ impl Builder {
 
     /// A call. Its values at the random points are opaque, like those of a root: they belong to function and arguments.
     pub fn call(&mut self, call: CallNode, hint: &str) -> NodeId {
-        let fields = call.arguments.iter().flat_map(|(_, fields)| fields);
+        let fields = call.arguments.iter().flat_map(|argument| &argument.fields);
         let arguments: Vec<Fingerprint> = fields.map(|(_, value)| self.fingerprint(*value)).collect();
         let mut stream = crate::field::Stream::named(&format!("{} {arguments:?}", call.function));
         let fingerprint = Fingerprint(std::array::from_fn(|_| stream.next_residue()));
@@ -297,8 +303,8 @@ pub struct Call {
     pub call: usize,
     /// The function, for reading.
     pub function: String,
-    /// The arguments: a declared type, or none for a scalar, and its fields.
-    pub arguments: Vec<(Option<usize>, Vec<Step>)>,
+    /// The arguments.
+    pub arguments: Vec<Argument<Step>>,
 }
 
 /// A named scalar step.
@@ -359,7 +365,7 @@ impl Program {
         let mut values = Vec::new();
         for step in self.steps.iter().chain(&self.outputs) {
             if let Value::Call(call) = &step.value {
-                values.extend(call.arguments.iter().flat_map(|(_, fields)| fields).map(|field| &field.value));
+                values.extend(call.arguments.iter().flat_map(|argument| &argument.fields).map(|field| &field.value));
             }
             values.push(&step.value);
         }

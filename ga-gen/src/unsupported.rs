@@ -62,5 +62,5 @@ pub(crate) fn expression(expression: &Expr) -> Error {
         Expr::Tuple(_) => "a formula has tuples only as its result",
         _ => "a formula has names, numbers, + - * / ^ | &, brackets, components and methods of multivectors",
     };
-    Error::new(expression.span(), message)
+    Error::new_spanned(expression, message)
 }

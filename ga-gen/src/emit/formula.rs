@@ -5,7 +5,7 @@ use crate::body::Operation;
 use crate::formula::Compiled;
 use crate::infer::Output;
 use crate::print;
-use crate::program::{Call, Step};
+use crate::program::{Argument, Call, Step};
 use crate::spec::Spec;
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
@@ -112,7 +112,7 @@ fn unread(compiled: &Compiled) -> TokenStream {
 fn call_tokens(spec: &Spec, compiled: &Compiled, call: &Call) -> TokenStream {
     let operation = &compiled.formula.steps[call.call].operation;
     let function = if let Operation::Call { function, .. } = operation { function.to_token_stream() } else { quote!() };
-    let arguments = call.arguments.iter().map(|(ty, fields)| {
+    let arguments = call.arguments.iter().map(|Argument { ty, fields }| {
         let values: Vec<TokenStream> = fields.iter().map(value).collect();
         match ty {
             Some(index) => types::construct(spec, *index, &values),

@@ -279,11 +279,15 @@ impl Printer<'_> {
     fn fields(&self, ty: &Type, value: &TokenStream) -> Vec<TokenStream> {
         let signature = &self.spec.signature;
         let mut fields: Vec<Option<TokenStream>> = vec![None; ty.fields.len()];
-        for (blade, polynomial) in &ty.coefficients {
-            if let Some((factor, field)) = polynomial.as_stored() {
-                let (read, inverse) = (coefficient(signature, value, *blade), factor.recip().map(rational));
-                fields[field] = Some(if factor == Rational::ONE { read } else { quote!(((#read) * #inverse)) });
-            }
+        for (field, readout) in ty.readouts.iter().enumerate() {
+            let Some(readout) = readout else { continue };
+            let terms = readout.terms.iter().map(|(blade, factor)| {
+                let (read, magnitude) = (coefficient(signature, value, *blade), rational(*factor));
+                if *factor == Rational::ONE { read } else { quote!(#magnitude * #read) }
+            });
+            let constant = (!readout.constant.is_zero()).then(|| rational(readout.constant));
+            let terms = terms.chain(constant);
+            fields[field] = Some(quote!((#(#terms)+*)));
         }
         for (blade, polynomial) in &ty.coefficients {
             let unknown: Vec<usize> =
@@ -298,7 +302,8 @@ impl Printer<'_> {
             let (known, inverse) = (known.collect::<TokenStream>(), rational(inverse));
             fields[field] = Some(quote!(((#read) #known) * #inverse));
         }
-        fields.into_iter().map(|field| field.unwrap_or_else(|| quote!(T::ratio(0, 1)))).collect()
+        let unread = format!("the dynamic twin cannot read the numbers of a `{}`", ty.name);
+        fields.into_iter().map(|field| field.unwrap_or_else(|| quote!(::core::compile_error!(#unread)))).collect()
     }
 }
 

@@ -12,7 +12,9 @@ mod scale;
 mod squares;
 
 use crate::field::Fingerprint;
-use crate::program::{Builder, Call, CallNode, Entry, Node, NodeId, Product, Program, Scaled, Step, Term, Value};
+use crate::program::{
+    Argument, Builder, Call, CallNode, Entry, Node, NodeId, Product, Program, Scaled, Step, Term, Value,
+};
 use crate::scalar::Rational;
 use std::collections::BTreeMap;
 
@@ -133,7 +135,7 @@ fn operands(node: &Node) -> Vec<NodeId> {
         Node::Quotient(numerator, id) => [&numerator.factors[..], &[*id]].concat(),
         Node::Sqrt(id) | Node::Part(id, _) => vec![*id],
         Node::Call(call) => {
-            let fields = call.arguments.iter().flat_map(|(_, fields)| fields);
+            let fields = call.arguments.iter().flat_map(|argument| &argument.fields);
             fields.filter_map(|(_, value)| value.node).collect()
         }
     }
@@ -237,7 +239,9 @@ impl Scheduler<'_> {
             Step { name: name.clone(), value: Value::Sum(self.products(&[term])) }
         };
         let arguments = call.arguments.iter();
-        let arguments = arguments.map(|(ty, fields)| (*ty, fields.iter().map(&mut field).collect())).collect();
+        let arguments =
+            arguments.map(|known| Argument { ty: known.ty, fields: known.fields.iter().map(&mut field).collect() });
+        let arguments = arguments.collect();
         Call { call: call.call, function: call.function.clone(), arguments }
     }
 
