@@ -6,6 +6,7 @@
 
 mod support;
 
+use ga_gen::formula::Compiled;
 use ga_gen::inspect;
 use ga_gen::item::Item;
 use ga_gen::program::Counts;
@@ -33,13 +34,10 @@ fn check_counts(name: &str, counts: Counts, operations: usize, div: usize) {
 
 #[test]
 fn formulas_stay_below_their_ceilings() {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../src");
-    let file = root.join("geometry/formulas.rs");
-    let inspected = inspect::load(&file, Some(&root.join("algebra/cga.rs"))).unwrap();
+    let formulas = library_formulas();
     for (name, operations, div) in FORMULAS {
-        let mut formulas = inspected.formulas.iter().map(|(_, compiled)| compiled);
-        let found = formulas.find(|compiled| compiled.formula.source.header.name == name);
-        check_counts(name, found.unwrap().program.counts(), operations, div);
+        let found = formulas.iter().find(|(_, compiled)| compiled.formula.source.header.name == name);
+        check_counts(name, found.unwrap().1.program.counts(), operations, div);
     }
 }
 
@@ -62,14 +60,31 @@ fn counts_are_those_of_the_emitted_code() {
         let Ok(file) = syn::parse2::<syn::File>(code) else { continue };
         // A meet is emitted with an operator that forwards to it: the first function is the one that computes.
         let Some(first) = file.items.first() else { continue };
-        let mut counter = Counter::default();
-        syn::visit::Visit::visit_item(&mut counter, first);
-        let Counts { mul, add, neg, div, sqrt } = item.program.counts();
-        let found = (counter.mul, counter.add + counter.neg, counter.div, counter.sqrt);
-        assert_eq!(found, (mul, add + neg, div, sqrt), "{}", item.name);
+        compare(&item.name, first, item.program.counts());
+        compared += 1;
+    }
+    for (spec, compiled) in library_formulas() {
+        let function = syn::parse2(ga_gen::emit::formula_function(&spec, &compiled)).unwrap();
+        let name = compiled.formula.source.header.name.to_string();
+        compare(&name, &function, compiled.program.counts());
         compared += 1;
     }
     assert!(compared > 1500, "only {compared} items were compared");
+}
+
+fn compare(name: &str, function: &syn::Item, counts: Counts) {
+    let mut counter = Counter::default();
+    syn::visit::Visit::visit_item(&mut counter, function);
+    let Counts { mul, add, neg, div, sqrt } = counts;
+    let found = (counter.mul, counter.add + counter.neg, counter.div, counter.sqrt);
+    assert_eq!(found, (mul, add + neg, div, sqrt), "{name}");
+}
+
+/// The formulas of the library's geometry.
+fn library_formulas() -> Vec<(Spec, Compiled)> {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../src");
+    let file = root.join("geometry/formulas.rs");
+    inspect::load(&file, Some(&root.join("algebra/cga.rs"))).unwrap().formulas
 }
 
 #[derive(Default)]
