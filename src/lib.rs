@@ -1,7 +1,8 @@
 //! Geometric algebra with types and products generated at compile time, and a rigid-body simulator that stands on them.
 //!
 //! * [`mod@algebra`]: G(3,0) and the conformal algebra G(4,1) as fixed-size types with unrolled products, and
-//!   [`algebra!`] to declare more; the grade-tracked dynamic multivector that they replace.
+//!   [`algebra!`] to declare more; [`formula`] for whole formulas over any of them; the grade-tracked dynamic multivector
+//!   that they replace.
 //! * [`versor`]: rotors, translators, motors, dilators. [`geometry`]: points, flats, rounds, meets, meshes.
 //! * `ode`, `rigid`, `collision`, `simulation` (feature `physics`): bodies in motion.
 //! * `io`, `scene`, `study`, `cli` (feature `cli`): what the command needs.
@@ -81,7 +82,26 @@ pub mod simulation;
 pub mod study;
 pub mod versor;
 
-pub use ga_macros::{__algebra_with_base, __formula_with_spec, algebra, formula};
+pub use ga_macros::algebra;
+/// A function over the types of an algebra, compiled as a whole.
+///
+/// ```
+/// use ga_physics::algebra::cga;
+/// use ga_physics::formula;
+///
+/// /// The sphere through four points.
+/// #[formula(cga, local = a)]
+/// pub fn circumsphere(a: Point, b: Point, c: Point, d: Point) -> Sphere {
+///     (a ^ b ^ c ^ d).dual().normalised()
+/// }
+///
+/// let [a, b, c, d] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]].map(cga::Point::from);
+/// assert_eq!(circumsphere(a, b, c, d), cga::Sphere::new(0.0, 0.0, 0.0, 1.0));
+/// ```
+///
+pub use ga_macros::formula;
+#[doc(hidden)]
+pub use ga_macros::{__algebra_with_base, __formula_with_spec};
 
 /// The examples of the README are tests.
 #[cfg(doctest)]
