@@ -26,6 +26,7 @@ pub fn algebra(input: TokenStream) -> TokenStream {
 ///   to `a`. Both take differences before products, which keeps the digits of what is far from the origin. They are
 ///   taken only where it is proved that the value is the same; else the error names what is tied to the origin (`no`,
 ///   `e1`, a free vector, a coordinate). A parameter whose type translations do not keep, like a `Vector`, stays as it is.
+///   Without either, the frame of each point is tried, and taken where that is proved and costs no more.
 /// * `dynamic = name`: also emits `fn name`, the same formula product by product over the dynamic multivector, in the
 ///   world: an oracle for tests and a baseline for measurements.
 ///
