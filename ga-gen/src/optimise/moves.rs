@@ -10,7 +10,8 @@ use crate::scalar::Rational;
 /// Sweeps over all nodes until none moves; each move lowers the count, so this ends.
 pub(super) fn move_scales(graph: &mut Graph) {
     let users = users(graph);
-    while (0..users.len()).fold(false, |moved, id| try_node(graph, id, &users[id]) || moved) {}
+    // Every node is tried in a sweep, also after one has moved.
+    while (0..users.len()).filter(|id| try_node(graph, *id, &users[*id])).count() > 0 {}
 }
 
 fn try_node(graph: &mut Graph, id: NodeId, users: &[Place]) -> bool {
