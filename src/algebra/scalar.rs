@@ -42,6 +42,14 @@ pub trait Real: Scalar + PartialOrd + Default + fmt::Debug + fmt::Display + fmt:
     /// e^x
     #[must_use]
     fn exp(self) -> Self;
+    /// The natural logarithm.
+    #[must_use]
+    fn ln(self) -> Self;
+    /// (sinh x, cosh x)
+    fn sinh_cosh(self) -> (Self, Self);
+    /// The x whose sinh this is.
+    #[must_use]
+    fn asinh(self) -> Self;
     /// The larger of two numbers.
     #[must_use]
     fn max(self, other: Self) -> Self {
@@ -65,7 +73,7 @@ pub trait Real: Scalar + PartialOrd + Default + fmt::Debug + fmt::Display + fmt:
 }
 
 macro_rules! implement {
-    ($float:ident, $sqrt:path, $sincos:path, $atan2:path, $exp:path) => {
+    ($float:ident, $sqrt:path, $sincos:path, $atan2:path, $exp:path, $ln:path, $sinh:path, $cosh:path, $asinh:path) => {
         impl Scalar for $float {
             #[inline]
             fn ratio(numerator: i32, denominator: i32) -> Self {
@@ -112,9 +120,31 @@ macro_rules! implement {
             fn exp(self) -> Self {
                 $exp(self)
             }
+            #[inline]
+            fn ln(self) -> Self {
+                $ln(self)
+            }
+            #[inline]
+            fn sinh_cosh(self) -> (Self, Self) {
+                ($sinh(self), $cosh(self))
+            }
+            #[inline]
+            fn asinh(self) -> Self {
+                $asinh(self)
+            }
         }
     };
 }
 
-implement!(f32, libm::sqrtf, libm::sincosf, libm::atan2f, libm::expf);
-implement!(f64, libm::sqrt, libm::sincos, libm::atan2, libm::exp);
+implement!(
+    f32,
+    libm::sqrtf,
+    libm::sincosf,
+    libm::atan2f,
+    libm::expf,
+    libm::logf,
+    libm::sinhf,
+    libm::coshf,
+    libm::asinhf
+);
+implement!(f64, libm::sqrt, libm::sincos, libm::atan2, libm::exp, libm::log, libm::sinh, libm::cosh, libm::asinh);

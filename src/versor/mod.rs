@@ -1,10 +1,17 @@
-//! Making versors: rotors from a plane and an angle, translators, motors, dilators; normalisation.
+//! Versors: rotors, translators, motors, dilators and general conformal rotors. Making them, exponentials and logarithms,
+//! powers, interpolation, renormalisation.
 //!
-//! Knows no geometry and no time. A rotor, translator or motor made here is unit up to rounding;
-//! a dilator by k up to `eps max(k, 1/k)`, because it is stored by cosh and sinh.
+//! `exp` takes the bivector itself, half the angle and half the displacement, and minus it: the motion with twist V is
+//! `exp(-V t / 2)`. `log` is that of the *motion*: a versor and its negative move alike, and the logarithm belongs to the
+//! one with the smaller angle. So `exp(log M)` is M where its scalar part is not negative, and -M where it is.
+//!
+//! Knows no geometry and no time. A versor made here is unit up to rounding.
 
-mod conformal;
+mod dilator;
+mod direction;
 mod motor;
 mod rotor;
+mod screw;
 
 pub use rotor::NotARotor;
+pub use screw::NotAMotor;
