@@ -7,11 +7,14 @@
 //!
 //! Knows no geometry and no time. A versor made here is unit up to rounding.
 
+mod conformal;
 mod dilator;
 mod direction;
+mod functions;
 mod motor;
 mod rotor;
 mod screw;
 
+pub use conformal::NotAConformalRotor;
 pub use rotor::NotARotor;
 pub use screw::NotAMotor;
