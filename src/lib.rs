@@ -3,7 +3,8 @@
 //! * [`mod@algebra`]: G(3,0) and the conformal algebra G(4,1) as fixed-size types with unrolled products, and
 //!   [`algebra!`] to declare more; [`formula`] for whole formulas over any of them; the grade-tracked dynamic multivector
 //!   that they replace.
-//! * [`versor`]: rotors, translators, motors, dilators. [`geometry`]: points, flats, rounds, meets, meshes.
+//! * [`versor`]: rotors, translators, motors, dilators, conformal rotors; their exponentials, logarithms and interpolation.
+//!   [`geometry`]: points, flats, rounds, meets, meshes.
 //! * `ode`, `rigid`, `collision`, `simulation` (feature `physics`): bodies in motion.
 //! * `io`, `scene`, `study`, `cli` (feature `cli`): what the command needs.
 //!
@@ -48,6 +49,8 @@
 //!   `X . pi = nu . x - delta`, positive on the side of the normal, *outside* a body. The two differ in sense.
 //! * Versors: `R = exp(-B phi/2)`, `x' = R x ~R`; translator `T = 1 - t ninf/2`; dilator `exp(alpha/2 e ebar)` scales by
 //!   `exp(-alpha)`; motor `M = T R`. The quaternion `w + x i + y j + z k` is the rotor `w - x e23 - y e31 - z e12`.
+//! * Exponentials take the bivector itself: `exp(B)`. The motion with twist V, `Mdot = -1/2 V M`, is `exp(-V t/2)`. A versor
+//!   and its negative move alike; `log` is that of the motion, the shorter way round, with a branch at a turn of pi.
 //! * Bivectors are stored as (e23, e31, e12), which reads like the axial vector: `Omega = omega I3`.
 //! * Motion: `v = x . Omega`, `L = x ^ (x . Omega)`, torque `r ^ F`, `Rdot = -1/2 Omega_world R = -1/2 R Omega_body`.
 //! * Contacts: the normal points from a to b, the separation is negative on overlap, the impulse `+j n` acts on b.
