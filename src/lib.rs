@@ -5,6 +5,7 @@
 //!   that they replace.
 //! * [`versor`]: rotors, translators, motors, dilators, conformal rotors; their exponentials, logarithms and interpolation.
 //!   [`geometry`]: points, flats, rounds, meets, meshes.
+//! * [`interop`]: the same things in the types of other crates.
 //! * `ode`, `rigid`, `collision`, `simulation` (feature `physics`): bodies in motion.
 //! * `io`, `scene`, `study`, `cli` (feature `cli`): what the command needs.
 //!
@@ -59,6 +60,20 @@
 //!
 //! `default-features = false` is `no_std` with `alloc`: algebra, versor, geometry. `physics` adds everything down to the
 //! simulation and the standard library; `cli` (the default) adds files, scenes, the study and the command.
+//!
+//! For work with other crates, in any combination, none of them needs the standard library. `mint` is for the types of
+//! this library, the others are for those of *every* [`algebra!`], also in your crate, which needs no dependency or feature of
+//! its own for it:
+//!
+//! | feature | gives |
+//! |---|---|
+//! | `serde` | `Serialize`, `Deserialize`: a struct with the names of the fields; a unit type that is read is checked |
+//! | `bytemuck` | `Pod`, `Zeroable`: slices of a type as bytes or numbers, for buffers of a GPU |
+//! | `approx` | `AbsDiffEq`, `RelativeEq`, `UlpsEq`, coefficient by coefficient |
+//! | `rand` | `rand::random()` and the like: uniform rotors, unit normals; numbers from 0 to 1 elsewhere |
+//! | `mint` | conversions to and from `mint`, and so glam and most other mathematics crates |
+//!
+//! Arrays, `Display` and nalgebra's types are there in every build; see [`interop`].
 #![cfg_attr(not(feature = "std"), no_std)]
 
 extern crate alloc;
@@ -71,6 +86,7 @@ pub mod cli;
 #[cfg(feature = "physics")]
 pub mod collision;
 pub mod geometry;
+pub mod interop;
 #[cfg(feature = "cli")]
 pub mod io;
 #[cfg(feature = "physics")]
@@ -105,6 +121,8 @@ pub use ga_macros::algebra;
 pub use ga_macros::formula;
 #[doc(hidden)]
 pub use ga_macros::{__algebra_with_base, __formula_with_spec};
+/// The version whose types are converted from and to.
+pub use nalgebra;
 
 /// The examples of the README are tests.
 #[cfg(doctest)]

@@ -9,10 +9,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the bottom up.
-const LAYERS: [&str; 14] = [
+const LAYERS: [&str; 15] = [
     "algebra",
     "versor",
     "geometry",
+    "interop",
     "ode",
     "constraint",
     "particle",

@@ -4,10 +4,14 @@
 //! Their types and products are written by [`algebra!`](crate::algebra!) at compile time; each item's documentation
 //! shows its formula and operation counts, printed from the same program as its code. The algebra knows no geometry.
 
+#[cfg_attr(feature = "bytemuck", allow(unsafe_code, reason = "repr(C), one scalar type, no padding: Pod; see support"))]
 pub mod cga;
 pub mod dynamic;
+#[cfg_attr(feature = "bytemuck", allow(unsafe_code, reason = "repr(C), one scalar type, no padding: Pod; see support"))]
 pub mod g3;
 mod scalar;
+#[doc(hidden)]
+pub mod support;
 
 pub use scalar::{Real, Scalar};
 

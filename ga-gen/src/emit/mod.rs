@@ -6,6 +6,7 @@
 
 mod code;
 mod formula;
+mod interop;
 mod operations;
 mod twin;
 mod types;

@@ -42,6 +42,7 @@ pub(super) fn construct(spec: &Spec, index: usize, values: &[TokenStream]) -> To
 pub(super) fn declare(spec: &Spec, index: usize, ty: &Type) -> TokenStream {
     let (visibility, name, docs) = (&spec.visibility, &ty.name, &ty.docs);
     let shape = shape_text(spec, ty);
+    let interop = super::interop::interoperate(spec, index);
     if ty.fields.is_empty() {
         return quote! {
             #(#docs)*
@@ -49,6 +50,7 @@ pub(super) fn declare(spec: &Spec, index: usize, ty: &Type) -> TokenStream {
             #[doc = #shape]
             #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
             #visibility struct #name;
+            #interop
         };
     }
     let fields: Vec<_> = ty.fields.iter().map(|field| identifier(field)).collect();
@@ -71,6 +73,7 @@ pub(super) fn declare(spec: &Spec, index: usize, ty: &Type) -> TokenStream {
     if ty.unit {
         tokens.extend(unit_operations(spec, index, ty));
     }
+    tokens.extend(interop);
     tokens
 }
 
