@@ -1,8 +1,8 @@
 //! Whether a closed surface bounds a convex solid, decided by exact signs.
 //!
-//! Every sign is of an `orient3d` (Shewchuk 1997, crate `robust`), which is exact, so there is no tolerance: facets in one
-//! plane are convex, and a dent of one rounding is a dent. A mesh of a round solid written with few digits often has such
-//! dents between nearly coplanar facets; whoever needs it convex takes its hull.
+//! Every sign is of an [`orient3d`], which is exact, so there is no tolerance: facets in one plane are convex, and a dent
+//! of one rounding is a dent. A mesh of a round solid written with few digits often has such dents between nearly coplanar
+//! facets; whoever needs it convex takes its hull.
 //!
 //! Fast path, O(n), after Mehlhorn et al., *Checking geometric programs or verification of geometric structures*, 1996.
 //! The solid is convex if
@@ -20,7 +20,8 @@ use alloc::vec::Vec;
 use crate::algebra::cga::Point;
 use crate::geometry::mesh::Mesh;
 use crate::geometry::mesh_topology::Topology;
-use robust::{Coord, Coord3D, orient2d, orient3d};
+use crate::geometry::predicates::{Sign, orient3d};
+use robust::{Coord, orient2d};
 
 /// The answer, with a witness of the contrary.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,10 +39,10 @@ pub(crate) enum Convexity {
     Overlaps,
 }
 
-/// Six times the volume of the tetrahedron, its sign exact: positive where `p` is behind the facet.
-fn behind([a, b, c]: [Point<f64>; 3], p: Point<f64>) -> f64 {
-    let [a, b, c, p] = [a, b, c, p].map(|p| Coord3D { x: p.x, y: p.y, z: p.z });
-    orient3d(a, b, c, p)
+/// Positive where `p` is behind the facet, zero where it is on its plane.
+fn behind([a, b, c]: [Point<f64>; 3], p: Point<f64>) -> Sign {
+    // The vertices of a mesh are finite; a mean of them that overflows is behind nothing.
+    orient3d(a, b, c, p).map_or(Sign::Zero, |side| -side)
 }
 
 /// Whether the corners lie on one line exactly: their shadows on all three coordinate planes do.
@@ -59,7 +60,7 @@ pub(crate) fn convexity(mesh: &Mesh, topology: &Topology) -> Convexity {
     let n_all = facets.len();
     let facets: Vec<_> = facets.into_iter().filter(|(_, f)| !has_zero_area(*f)).collect();
     let inner = mean(&mesh.used_vertices());
-    let all_behind = facets.iter().all(|&(_, f)| behind(f, inner) > 0.0);
+    let all_behind = facets.iter().all(|&(_, f)| behind(f, inner) == Sign::Positive);
     if facets.len() == n_all && all_behind {
         return covered_once(&facets, inner);
     }
@@ -80,7 +81,8 @@ fn reflex_edge(mesh: &Mesh, topology: &Topology) -> Option<Convexity> {
         let vertex = mesh.triangles[other.triangle][(other.corner + 2) % 3];
         let triangle = side.triangle;
         let facet = mesh.corners(mesh.triangles[triangle]);
-        (behind(facet, mesh.vertices[vertex as usize]) < 0.0).then_some(Convexity::Protrudes { triangle, vertex })
+        (behind(facet, mesh.vertices[vertex as usize]) == Sign::Negative)
+            .then_some(Convexity::Protrudes { triangle, vertex })
     })
 }
 
@@ -90,7 +92,7 @@ fn protruding_vertex(mesh: &Mesh, facets: &[(usize, [Point<f64>; 3])]) -> Option
     let vertices: Vec<(u32, Point<f64>)> =
         (0u32..).zip(mesh.vertices.iter().copied()).filter(|&(i, _)| used[i as usize]).collect();
     facets.iter().find_map(|&(triangle, facet)| {
-        let protrudes = vertices.iter().find(|&&(_, p)| behind(facet, p) < 0.0);
+        let protrudes = vertices.iter().find(|&&(_, p)| behind(facet, p) == Sign::Negative);
         protrudes.map(|&(vertex, _)| Convexity::Protrudes { triangle, vertex })
     })
 }
@@ -100,7 +102,7 @@ fn protruding_vertex(mesh: &Mesh, facets: &[(usize, [Point<f64>; 3])]) -> Option
 /// A ray through an edge or a vertex decides nothing. Then the next facet is aimed at; all edges would have to conspire
 /// against every one of them.
 fn covered_once(facets: &[(usize, [Point<f64>; 3])], apex: Point<f64>) -> Convexity {
-    let targets = facets.iter().filter(|&&(_, f)| behind(f, apex) > 0.0);
+    let targets = facets.iter().filter(|&&(_, f)| behind(f, apex) == Sign::Positive);
     let crossings = targets.map(|(_, f)| mean(f)).find_map(|target| crossings(facets, apex, target));
     if crossings == Some(1) { Convexity::Convex } else { Convexity::Overlaps }
 }
@@ -108,12 +110,12 @@ fn covered_once(facets: &[(usize, [Point<f64>; 3])], apex: Point<f64>) -> Convex
 /// How many facets the ray from `apex` towards `target` crosses, if it meets no edge.
 fn crossings(facets: &[(usize, [Point<f64>; 3])], apex: Point<f64>, target: Point<f64>) -> Option<usize> {
     let mut count = 0;
-    for &(_, facet) in facets.iter().filter(|&&(_, f)| behind(f, apex) > 0.0) {
+    for &(_, facet) in facets.iter().filter(|&&(_, f)| behind(f, apex) == Sign::Positive) {
         let [a, b, c] = facet;
         // Seen from the apex, inside of each edge: the target is on the same side of (apex, a, b) as c.
         let sides = [[a, b], [b, c], [c, a]].map(|[p, q]| behind([apex, q, p], target));
-        let outside = sides.iter().any(|&s| s < 0.0);
-        if !outside && sides.contains(&0.0) {
+        let outside = sides.contains(&Sign::Negative);
+        if !outside && sides.contains(&Sign::Zero) {
             return None;
         }
         count += usize::from(!outside);

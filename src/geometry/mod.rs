@@ -2,7 +2,8 @@
 //!
 //! The [`formulas`] are unchecked; here they are wrapped: a construction either succeeds or names the degenerate case
 //! ([`Degenerate`]). Every round is built in the local frame of one of its own points ("difference first"); only
-//! [`circle_parts`] takes a blade as it is. Geometry knows no time.
+//! [`circle_parts`] takes a blade as it is. Where a sign alone decides, [`predicates`] knows it exactly. Geometry knows no
+//! time.
 
 mod degenerate;
 mod disjoint_sets;
@@ -19,6 +20,7 @@ mod mesh_convexity;
 mod mesh_findings;
 mod mesh_topology;
 mod points;
+pub mod predicates;
 mod reflections;
 mod rounds;
 mod scaled;

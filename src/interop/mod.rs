@@ -51,7 +51,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The quaternion of mint may have any norm, so that this conversion is checked: [`NotUnit`](NotUnit).
+//! The quaternion of mint may have any norm, so that this conversion is checked: the error is `NotUnit`.
 //!
 //! # Files, by serde
 //!

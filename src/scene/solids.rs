@@ -3,6 +3,7 @@
 use crate::algebra::cga::Point;
 use crate::geometry::mass_properties::principal_axes;
 use crate::geometry::mesh::{Mesh, MeshError};
+use crate::geometry::predicates::{Sign, orient3d};
 
 /// A box about the origin, edges along the axes. Vertex index: bit 0 for +x, bit 1 for +y, bit 2 for +z.
 ///
@@ -33,10 +34,9 @@ pub(super) fn pyramid(base: f64, height: f64) -> Result<Mesh, MeshError> {
 /// # Errors
 /// Coordinates that are not finite.
 pub(super) fn tetrahedron(corners: [[f64; 3]; 4]) -> Result<Mesh, MeshError> {
-    let coordinates = corners.map(|[x, y, z]| robust::Coord3D { x, y, z });
-    let [a, b, c, d] = coordinates;
-    // Positive when d lies below the plane of a, b, c seen counter-clockwise: then a, b, c is seen from outside.
-    let outward = robust::orient3d(a, b, c, d) > 0.0;
+    let [a, b, c, d] = corners.map(Point::from);
+    // With d behind the plane of a, b, c, these are seen from outside. What is not finite has no side, and is no mesh either.
+    let outward = orient3d(a, b, c, d) == Ok(Sign::Negative);
     let triangles = if outward {
         [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]
     } else {
