@@ -13,7 +13,7 @@ mod scalar;
 #[doc(hidden)]
 pub mod support;
 
-pub use scalar::{Real, Scalar};
+pub use scalar::{Interval, NotAnInterval, Real, Scalar};
 
 /// A versor that maps `x` to `v x ~v`.
 ///

@@ -4,6 +4,10 @@
 //! small so that SIMD lanes, dual numbers, intervals, double-double and exact rationals can all be scalars. [`Real`]
 //! adds order and elementary functions, for code that decides.
 
+mod interval;
+
+pub use interval::{Interval, NotAnInterval};
+
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
