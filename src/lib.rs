@@ -74,6 +74,9 @@
 //! | `mint` | conversions to and from `mint`, and so glam and most other mathematics crates |
 //!
 //! Arrays, `Display` and nalgebra's types are there in every build; see [`interop`].
+//!
+//! `wide`, `twofloat` and `num-dual` make SIMD lanes, double-double and dual numbers [scalars](algebra::Scalar). The first
+//! two need no standard library.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 extern crate alloc;

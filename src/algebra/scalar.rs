@@ -3,19 +3,87 @@
 //! [`Scalar`] is enough for every product and kernel: arithmetic, exact small constants, a square root. It is kept this
 //! small so that SIMD lanes, dual numbers, intervals, double-double and exact rationals can all be scalars. [`Real`]
 //! adds order and elementary functions, for code that decides.
+//!
+//! One file each for the numbers of other crates, which can be made scalars only here, and for intervals.
 
+#[cfg(feature = "twofloat")]
+mod double_double;
+#[cfg(feature = "num-dual")]
+mod dual;
 mod interval;
+#[cfg(feature = "wide")]
+mod lanes;
 
+#[cfg(feature = "twofloat")]
+pub use double_double::DoubleDouble;
 pub use interval::{Interval, NotAnInterval};
 
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A commutative field, as far as its precision goes.
+/// A commutative field, as far as its precision goes. Generated code runs on any type that has it.
+///
+/// | number | type | feature | for |
+/// |---|---|---|---|
+/// | floats | `f32`, `f64` | | |
+/// | SIMD lanes | `simba::simd::{WideF32x4, WideF32x8, WideF64x4}` | `wide` | many items at once |
+/// | double-double | `DoubleDouble` | `twofloat` | references: 31 digits |
+/// | dual numbers | `num_dual::{Dual, Dual2, HyperDual, DualVec, Dual2Vec}` | `num-dual` | derivatives |
+/// | intervals | [`Interval`] | | enclosures of the exact result |
+///
+/// The crates `simba`, `twofloat` and `num_dual` are re-exported beside this trait, in the versions whose numbers have it.
+/// For a number of your own, implement it in your crate: operators, a constant, a root.
+///
+/// # Many items at once
+///
+/// A type of lanes holds as many numbers as a register, and an operation acts on all: a `Point<WideF32x4>` is four
+/// points. Where results differ by lane, compare and select by lane; code that branches on a number (everything over
+/// [`Real`]) does not run on lanes.
+///
+/// ```
+/// use ga_physics::algebra::cga::{Point, Sphere};
+/// use ga_physics::algebra::simba::simd::{SimdBool, SimdPartialOrd, SimdValue, WideF32x4};
+///
+/// let sphere = Sphere::new(0.0, 0.0, 0.0, 1.0).map(WideF32x4::splat);     // the same in all lanes
+/// let points = [[0.5_f32, 0.5, 0.5], [0.9, 0.9, 0.0], [0.0, 0.0, 0.1], [2.0, 0.0, 0.0]];
+/// let packed = Point::from_fn(|field| points.map(|point| point[field]).into());
+///
+/// let inner = packed | sphere;                                            // positive inside
+/// let inside = inner.simd_gt(WideF32x4::splat(0.0));
+/// assert_eq!(inside.bitmask(), 0b0101);                                   // the first and the third
+/// let weight = WideF32x4::splat(1.0).select(inside, WideF32x4::splat(0.0));
+/// assert_eq!(<[f32; 4]>::from(weight), [1.0, 0.0, 1.0, 0.0]);
+/// ```
+///
+/// For speed keep items packed, as a `Vec<Point<WideF32x8>>`: an array of structs of lanes, from which a load fills a
+/// register. Packing for a single product costs more than the product.
+///
+/// Which instructions lanes become is decided when the crate is compiled. A plain build for x86-64 has registers of 128
+/// bits, and uses two for eight f32 or four f64; `RUSTFLAGS="-C target-cpu=x86-64-v3"` makes it one of 256. Results are
+/// the same bits in both, and those of f32 and f64. There is no choice at run time: what a lane type is made of is fixed with
+/// the build, so a function that is compiled again for wider registers still adds it half by half (`multiversion` on the
+/// motor sandwich of f32: no gain). Who must choose at run time loops over `[f32; 8]` inside such a function, one number
+/// at a time, and leaves the rest to the compiler: twice as fast there with AVX2 as without.
+///
+/// # Derivatives
+///
+/// ```
+/// use ga_physics::algebra::{cga::Point, num_dual::Dual64};
+/// use ga_physics::geometry::formulas::circumsphere;
+///
+/// // How fast does the sphere through four points grow while the first moves outward along x?
+/// let rest = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]].map(|p| Point::from(p.map(Dual64::from)));
+/// let [a, b, c] = rest;
+/// let moving = Point::new(Dual64::new(1.0, 1.0), Dual64::from(0.0), Dual64::from(0.0));
+/// let sphere = circumsphere(moving, a, b, c);
+/// assert_eq!((sphere.rho_sq.re, sphere.rho_sq.eps), (1.0, 1.0));
+/// assert_eq!(sphere.x.eps, 0.5);
+/// ```
 pub trait Scalar:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self> + 'static
 {
-    /// The constant `numerator / denominator`.
+    /// The constant `numerator / denominator`, as good as the type can hold it: in all lanes, without derivative,
+    /// enclosed.
     fn ratio(numerator: i32, denominator: i32) -> Self;
 
     /// The square root of a number that is not negative.
