@@ -1,6 +1,6 @@
 //! Formulas as users write them: in another crate, over the library's algebras and their own, in modules and function
 //! bodies, with every piece of the grammar. Each is held against an answer made by other means, exactly.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
+#![allow(clippy::unwrap_used, clippy::cast_possible_truncation, reason = "a test may panic")]
 
 #[path = "support/rational.rs"]
 mod rational;

@@ -98,7 +98,7 @@ fn sizes_are_those_of_the_stored_numbers() {
     }
     numbers! {
         g3::Vector 3 g3::Bivector 3 g3::Trivector 1 g3::Rotor 4 g3::Even 4 g3::Odd 4 g3::Multivector 8
-        cga::Point 3 cga::Sphere 4 cga::Plane 4 cga::FlatPoint 4 cga::Round 5 cga::Translator 3 cga::Dilator 2 cga::Pose 7 cga::ConformalRotor 16
+        cga::Point 3 cga::Sphere 4 cga::Plane 4 cga::FinitePoint 3 cga::FlatPoint 4 cga::Round 5 cga::Translator 3 cga::Dilator 2 cga::Pose 7 cga::ConformalRotor 16
         cga::DualLine 6 cga::Line 6 cga::Twist 6 cga::PointPair 10 cga::Circle 10 cga::DirectPlane 4
         cga::DirectSphere 5 cga::Pseudoscalar 1 cga::Motor 8 cga::Even 16 cga::Odd 16 cga::Multivector 32
     }

@@ -12,7 +12,7 @@ mod operations;
 mod rational;
 
 use ga_physics::algebra::dynamic::{Dynamic, ToDynamic};
-use ga_physics::algebra::{cga, g3};
+use ga_physics::algebra::{cga, g3, split};
 use ga_physics::geometry::formulas;
 use operations::{Random, Sample};
 use rational::Rational;
@@ -77,6 +77,7 @@ mod conformal {
     type Point = cga::Point<Rational>;
     type Sphere = cga::Sphere<Rational>;
     type Plane = cga::Plane<Rational>;
+    type FinitePoint = cga::FinitePoint<Rational>;
     type FlatPoint = cga::FlatPoint<Rational>;
     type Round = cga::Round<Rational>;
     type Translator = cga::Translator<Rational>;
@@ -96,7 +97,7 @@ mod conformal {
     type Odd = cga::Odd<Rational>;
     type Multivector = cga::Multivector<Rational>;
 
-    integers!(Point Sphere FlatPoint Round DualLine Line Twist PointPair Circle DirectPlane DirectSphere);
+    integers!(Point Sphere FinitePoint FlatPoint Round DualLine Line Twist PointPair Circle DirectPlane DirectSphere);
     integers!(Pseudoscalar Even Odd Multivector);
     constants!(Infinity Origin);
     impl Sample for Translator {
@@ -145,11 +146,20 @@ mod conformal {
         let weight = x.coefficient(1 << 4) - x.coefficient(1 << 3);
         (weight != Rational::new(0, 1)).then_some(weight)
     }
+    /// The weight of a flat point, unless it is 0 or none: X ^ ninf is moved off itself by an inversion.
+    fn finite_weight(x: &Multi) -> Option<Rational> {
+        let weight = -x.coefficient(0b11000);
+        let zero = Rational::new(0, 1);
+        let flat = [1, 2, 4].iter().all(|blade| x.coefficient(blade | 8) == x.coefficient(blade | 16));
+        (flat && x.grade(2) == *x && weight != zero).then_some(weight)
+    }
     /// The sandwich; for a type of weight 1 divided by its weight, which is what `apply` says.
     fn image(versor: &Multi, x: &Multi, type_name: &str) -> Multi {
         let image = versor.apply(x);
         let weight = match type_name {
             "Point" | "Sphere" | "Origin" => weight(&image),
+            // The coefficient of no_ninf = -(e ebar): of a flat point of weight 1.
+            "FinitePoint" => finite_weight(&image),
             "Infinity" if [1, 2, 4].iter().all(|blade| image.coefficient(*blade) == Rational::new(0, 1)) => {
                 Some(image.coefficient(1 << 4))
             }
@@ -164,6 +174,43 @@ mod conformal {
         let compared = compare_all();
         println!("{compared} operations");
         assert!(compared > 1500, "only {compared} operations were compared");
+    }
+
+    #[test]
+    fn products_in_the_split_basis_are_those_of_the_table() {
+        let mut random = Random(7);
+        for _ in 0..20 {
+            let [a, b] = [(); 2].map(|()| Even::sample(&mut random));
+            assert_eq!(split::even_product(a, b), a * b);
+            let [a, b] = [(); 2].map(|()| Multivector::sample(&mut random));
+            assert_eq!(split::multivector_product(a, b), a * b);
+        }
+    }
+
+    #[test]
+    fn poses_and_motors_are_the_same_motions() {
+        let mut random = Random(8);
+        for _ in 0..20 {
+            let [a, b] = [(); 2].map(|()| Pose::sample(&mut random));
+            let x = Point::sample(&mut random);
+            assert_eq!(Pose::from(Motor::from(a)), a);
+            assert_eq!(Motor::from(a * b), Motor::from(a) * Motor::from(b));
+            assert_eq!(a.apply(x), Motor::from(a).apply(x));
+            assert_eq!(Pose::from_parts(a.translation(), a.rotor()), a);
+            assert_eq!(a.position(), a.apply(cga::Origin));
+        }
+    }
+
+    #[test]
+    fn balls_reach_as_far_as_their_radii() {
+        let number = |n| Rational::new(n, 1);
+        let [a, b] = [[1, 2, 3], [4, 6, 15]].map(|x| Point::from(x.map(number)));
+        let found = formulas::ball_reach_and_distance_sq(a, number(6), b, number(8));
+        assert_eq!(found, (number(196), number(169)));
+        let [x, y] = [a, b].map(|point| point.to_dynamic());
+        let scalar = |n| Multi::from_terms(&[(0, number(n))]);
+        let twin = formulas::ball_reach_and_distance_sq_dynamic(&x, &scalar(6), &y, &scalar(8));
+        assert!(twin == (scalar(196), scalar(169)));
     }
 
     /// Each formula against its twin over the dynamic multivector: the same source, product by product and in the world.
@@ -207,6 +254,21 @@ mod conformal {
         weight(&formulas::circumsphere_relative_dynamic(&a, &b, &c, &d)).is_none()
     }
 
+    /// Three points on a line have no circle.
+    fn collinear((a, b, c): (Point, Point, Point)) -> bool {
+        let [a, b, c] = [a, b, c].map(|point| point.to_dynamic());
+        weight(&formulas::circle_sphere_relative_dynamic(&a, &b, &c)).is_none()
+    }
+
+    /// A line parallel to the plane does not meet it.
+    fn parallel((_, u, plane): (Point, Vector, Plane)) -> bool {
+        u.e1 * plane.e1 + u.e2 * plane.e2 + u.e3 * plane.e3 == Rational::new(0, 1)
+    }
+
+    fn blade_parallel((line, plane): (Line, Plane)) -> bool {
+        (plane | line).no_ninf == Rational::new(0, 1)
+    }
+
     /// The inverse of the centre is at infinity.
     fn is_centre((x, sphere): (Point, Sphere)) -> bool {
         [x.x, x.y, x.z] == [sphere.x, sphere.y, sphere.z]
@@ -215,6 +277,9 @@ mod conformal {
     formulas! {
         world circumsphere circumsphere_dynamic(a: Point, b: Point, c: Point, d: Point) unless coplanar;
         relative circumsphere_relative circumsphere_relative_dynamic(a: Point, b: Point, c: Point, d: Point);
+        world circle_sphere circle_sphere_dynamic(a: Point, b: Point, c: Point) unless collinear;
+        world ray_meets_plane ray_meets_plane_dynamic(p: Point, u: Vector, plane: Plane) unless parallel;
+        world line_blade_meets_plane line_blade_meets_plane_dynamic(line: Line, plane: Plane) unless blade_parallel;
         relative circle_sphere_relative circle_sphere_relative_dynamic(a: Point, b: Point, c: Point);
         world pair_sphere pair_sphere_dynamic(a: Point, b: Point);
         relative plane_relative plane_relative_dynamic(a: Point, b: Point, c: Point);

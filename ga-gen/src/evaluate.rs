@@ -12,7 +12,7 @@ use crate::frame;
 use crate::header::Frame;
 use crate::infer::{self, Output};
 use crate::item::field_names;
-use crate::lower::{Components, Lowering, Schedule, reversed};
+use crate::lower::{Components, Lowering, reversed};
 use crate::program::{Argument, Builder, CallNode, NodeId, Scaled};
 use crate::scalar::Rational;
 use crate::spec::Spec;
@@ -38,7 +38,7 @@ pub(crate) struct Evaluation<'a> {
 
 impl<'a> Evaluation<'a> {
     pub(crate) fn new(spec: &'a Spec, formula: &'a Formula, plan: Plan) -> syn::Result<Self> {
-        let lowering = Lowering::new(spec, plan, Schedule::Stable);
+        let lowering = Lowering::new(spec, plan, formula.source.options.schedule);
         let signs = vec![None; formula.steps.len()];
         let (calls, arguments) = (BTreeMap::new(), BTreeMap::new());
         let (fields, handed) = (vec![], vec![]);

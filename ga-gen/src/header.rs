@@ -6,6 +6,7 @@
 //! pub fn circumsphere(a: Point, b: Point, c: Point, d: Point) -> Sphere { .. }
 //! ```
 
+use crate::lower::Schedule;
 use crate::unsupported;
 use proc_macro2::{Span, TokenStream};
 use syn::parse::{Parse, ParseStream};
@@ -32,6 +33,8 @@ pub struct Options {
     pub frame: Frame,
     /// The name of the same formula over the dynamic multivector.
     pub dynamic: Option<Ident>,
+    /// What may be traded for fewer operations.
+    pub schedule: Schedule,
 }
 
 /// What stands before the body.
@@ -89,7 +92,7 @@ impl Parse for Options {
         if input.peek(Token![=]) {
             return Err(Error::new_spanned(path, unnamed));
         }
-        let mut options = Self { path, frame: Frame::World, dynamic: None };
+        let mut options = Self { path, frame: Frame::World, dynamic: None, schedule: Schedule::Stable };
         while !input.is_empty() {
             input.parse::<Token![,]>()?;
             if !input.is_empty() {
@@ -104,14 +107,20 @@ impl Options {
     fn parse_option(&mut self, input: ParseStream) -> syn::Result<()> {
         let key: Ident = input.parse()?;
         let name = key.to_string();
-        if !["local", "relative", "dynamic"].contains(&name.as_str()) {
-            let message = format!("no option `{name}`; there are `local = a`, `relative = a` and `dynamic = name`");
+        if !["local", "relative", "dynamic", "schedule"].contains(&name.as_str()) {
+            let message = format!(
+                "no option `{name}`; there are `local = a`, `relative = a`, `dynamic = name` and `schedule = split`"
+            );
             return Err(Error::new(key.span(), message));
         }
         input.parse::<Token![=]>()?;
         let value: Ident = input.parse()?;
         match (name.as_str(), &self.frame, &self.dynamic) {
             ("dynamic", _, None) => self.dynamic = Some(value),
+            ("schedule", ..) if value != "split" => {
+                return Err(Error::new(value.span(), format!("no schedule `{value}`; there is `split`")));
+            }
+            ("schedule", ..) if self.schedule == Schedule::Stable => self.schedule = Schedule::Split,
             ("local", Frame::World, _) => self.frame = Frame::Local(value),
             ("relative", Frame::World, _) => self.frame = Frame::Relative(value),
             ("local", Frame::Relative(_), _) | ("relative", Frame::Local(_), _) => {

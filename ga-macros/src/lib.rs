@@ -29,6 +29,10 @@ pub fn algebra(input: TokenStream) -> TokenStream {
 ///   Without either, the frame of each point is tried, and taken where that is proved and costs no more.
 /// * `dynamic = name`: also emits `fn name`, the same formula product by product over the dynamic multivector, in the
 ///   world: an oracle for tests and a baseline for measurements.
+/// * `schedule = split`: products may be computed in a split basis of the null pair, with up to three times fewer operations
+///   for general multivectors. The same value, but the error is relative to the largest coefficients of an operand: small
+///   ones beside large ones lose digits. Without it only types that are stored split are multiplied so, where nothing is
+///   lost.
 ///
 /// # What a formula holds
 ///

@@ -13,6 +13,7 @@ pub mod dynamic;
 #[cfg_attr(feature = "bytemuck", allow(unsafe_code, reason = "repr(C), one scalar type, no padding: Pod; see support"))]
 pub mod g3;
 mod scalar;
+pub mod split;
 #[doc(hidden)]
 pub mod support;
 

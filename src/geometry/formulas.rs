@@ -29,6 +29,14 @@ pub fn circle_sphere_relative(a: Point, b: Point, c: Point) -> Round {
     (circle ^ (circle ^ Infinity).dual()).dual()
 }
 
+/// The smallest sphere through three points: centre and squared radius of their circle. Collinear points divide by zero;
+/// `geometry::circle_through` has the checked form.
+#[formula(crate::algebra::cga, local = a, dynamic = circle_sphere_dynamic)]
+pub fn circle_sphere(a: Point, b: Point, c: Point) -> Sphere {
+    let circle = a ^ b ^ c;
+    (circle ^ (circle ^ Infinity).dual()).dual().normalised()
+}
+
 /// The smallest sphere through two points, `(A + B)/2 + (A . B)/2 ninf`: centre in the middle, radius half the distance.
 #[formula(crate::algebra::cga, local = a, dynamic = pair_sphere_dynamic)]
 pub fn pair_sphere(a: Point, b: Point) -> Sphere {
@@ -51,6 +59,27 @@ pub fn line_relative(a: Point, b: Point) -> Line {
 #[formula(crate::algebra::cga, relative = a, dynamic = line_meets_plane_relative_dynamic)]
 pub fn line_meets_plane_relative(a: Point, b: Point, plane: Plane) -> FlatPoint {
     plane | (a ^ b ^ Infinity)
+}
+
+/// Where the line through a point along a direction of any length meets a plane. A line parallel to the plane divides by
+/// zero; `geometry::line_meets_plane` has the checked form.
+#[formula(crate::algebra::cga, local = p, dynamic = ray_meets_plane_dynamic)]
+pub fn ray_meets_plane(p: Point, u: Vector, plane: Plane) -> FinitePoint {
+    (plane | (p ^ u ^ Infinity)).normalised()
+}
+
+/// Where a line given by its blade meets a plane. A line parallel to the plane divides by zero.
+#[formula(crate::algebra::cga, dynamic = line_blade_meets_plane_dynamic)]
+pub fn line_blade_meets_plane(line: Line, plane: Plane) -> FinitePoint {
+    (plane | line).normalised()
+}
+
+/// Two balls by centre and radius: the square of the sum of the radii, and that of the distance, `-2 A . B`. They overlap
+/// where the first is the larger; the comparison is left to the caller, who may have lanes.
+#[formula(crate::algebra::cga, dynamic = ball_reach_and_distance_sq_dynamic)]
+pub fn ball_reach_and_distance_sq(a: Point, radius_a: Scalar, b: Point, radius_b: Scalar) -> (Scalar, Scalar) {
+    let reach = radius_a + radius_b;
+    (reach * reach, -2 * (a | b))
 }
 
 /// The reciprocal vector of the first vertex of a facet, times `|Phi|²` = 4 times the squared area, relative to that

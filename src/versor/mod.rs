@@ -1,4 +1,4 @@
-//! Versors: rotors, translators, motors, dilators and general conformal rotors. Making them, exponentials and logarithms,
+//! Versors: rotors, translators, motors, poses, dilators and general conformal rotors. Making them, exponentials and logarithms,
 //! powers, interpolation, renormalisation.
 //!
 //! `exp` takes the bivector itself, half the angle and half the displacement, and minus it: the motion with twist V is
@@ -12,6 +12,7 @@ mod dilator;
 mod direction;
 mod functions;
 mod motor;
+mod pose;
 mod rotor;
 mod screw;
 
