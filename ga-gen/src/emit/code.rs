@@ -6,8 +6,12 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
 /// Sums of up to this many terms are a chain; longer ones a balanced tree, which has the shorter dependency chain and
-/// the smaller error bound.
-const LONGEST_CHAIN: usize = 4;
+/// the smaller error bound. A tree holds more numbers at a time: for the sums of eight terms of a product of motors, in a
+/// loop over a slice, it took 204 instructions for two items where the chain took 195, on 16 registers.
+const LONGEST_CHAIN: usize = 8;
+
+/// Results whose longest sum has more terms than this are computed longest first.
+const SHORT_SUM: usize = 4;
 
 /// `let` statements for the shared steps of a program without calls.
 pub(super) fn steps(program: &Program) -> TokenStream {
@@ -27,6 +31,39 @@ pub(super) fn steps_with(program: &Program, call: impl Fn(&Call) -> TokenStream)
     program.steps.iter().map(statement).collect()
 }
 
+/// Statements for the results, and the expression of each, in the order of the fields.
+///
+/// Where sums differ in length the longest are computed first: while all operands are needed, no short result takes a
+/// register. For a product of motors that saves 19 of 214 instructions.
+pub(super) fn results(program: &Program) -> (TokenStream, Vec<TokenStream>) {
+    let length = |output: &Step| if let Value::Sum(products) = &output.value { products.len() } else { 1 };
+    let longest = program.outputs.iter().map(length).max().unwrap_or_default();
+    let name = |output: &Step| format!("result_{}", output.name);
+    let taken = |name: &String| program.steps.iter().any(|step| step.name == *name) || reads(program, name);
+    let differ = program.outputs.iter().any(|output| length(output) != longest);
+    if longest <= SHORT_SUM || !differ || program.outputs.iter().map(name).any(|name| taken(&name)) {
+        return (TokenStream::new(), program.outputs.iter().map(|output| value(&output.value)).collect());
+    }
+    let mut ordered: Vec<&Step> = program.outputs.iter().collect();
+    ordered.sort_by_key(|output| std::cmp::Reverse(length(output)));
+    let statements = ordered.into_iter().map(|output| {
+        let (name, value) = (identifier(&name(output)), value(&output.value));
+        quote!(let #name = #value;)
+    });
+    let names = program.outputs.iter().map(|output| identifier(&name(output)).into_token_stream());
+    (statements.collect(), names.collect())
+}
+
+/// Programs with more operations than the first are beyond what the compiler inlines at `#[inline]`; beyond the second a
+/// call costs nothing beside them.
+const INLINED: std::ops::RangeInclusive<usize> = 40..=160;
+
+/// The attribute for a function with a program of this size. A call of a product of motors copies 24 numbers to memory
+/// and back, and hides the loop around it from the vectoriser.
+pub(super) fn inline(program: &Program) -> TokenStream {
+    if INLINED.contains(&program.counts().operations()) { quote!(#[inline(always)]) } else { quote!(#[inline]) }
+}
+
 /// The expression of a step or output that is no call.
 pub(super) fn value(value: &Value) -> TokenStream {
     match value {
@@ -44,7 +81,7 @@ pub(super) fn value(value: &Value) -> TokenStream {
     }
 }
 
-/// Positive products stand first; so if the first is negative, all are.
+/// A positive product stands first, unless all are negative.
 fn sum(products: &[Product]) -> TokenStream {
     if products.len() > LONGEST_CHAIN {
         let (left, right) = products.split_at(products.len().div_ceil(2));

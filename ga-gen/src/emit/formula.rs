@@ -5,7 +5,7 @@ use crate::body::Operation;
 use crate::formula::Compiled;
 use crate::infer::Output;
 use crate::print;
-use crate::program::{Argument, Call, Step};
+use crate::program::{Argument, Call};
 use crate::spec::Spec;
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
@@ -61,7 +61,7 @@ fn function(spec: &Spec, compiled: &Compiled) -> TokenStream {
     let result = if header.tuple { quote!((#(#result,)*)) } else { quote!(#(#result)*) };
     let doc = print::formula_documentation(spec, compiled);
     let inline = attributes.iter().any(|attribute| attribute.path().is_ident("inline"));
-    let inline = (!inline).then(|| quote!(#[inline]));
+    let inline = (!inline).then(|| code::inline(&compiled.program));
     let body = body(spec, compiled, &outputs);
     quote! {
         #(#attributes)*
@@ -76,7 +76,9 @@ fn body(spec: &Spec, compiled: &Compiled, outputs: &[Output]) -> TokenStream {
     let (formula, program) = (&compiled.formula, &compiled.program);
     let mut tokens = unread(compiled);
     tokens.extend(code::steps_with(program, |call| call_tokens(spec, compiled, call)));
-    let mut values = program.outputs.iter().map(value);
+    let (statements, values) = code::results(program);
+    tokens.extend(statements);
+    let mut values = values.into_iter();
     let results: Vec<TokenStream> = outputs
         .iter()
         .map(|ty| match ty {
@@ -89,10 +91,6 @@ fn body(spec: &Spec, compiled: &Compiled, outputs: &[Output]) -> TokenStream {
         .collect();
     tokens.extend(if formula.source.header.tuple { quote!((#(#results,)*)) } else { quote!(#(#results)*) });
     tokens
-}
-
-fn value(step: &Step) -> TokenStream {
-    code::value(&step.value)
 }
 
 /// Statements for the compiler's lints: a name that the source does not read is reported on the source's token, and a
@@ -113,7 +111,7 @@ fn call_tokens(spec: &Spec, compiled: &Compiled, call: &Call) -> TokenStream {
     let operation = &compiled.formula.steps[call.call].operation;
     let function = if let Operation::Call { function, .. } = operation { function.to_token_stream() } else { quote!() };
     let arguments = call.arguments.iter().map(|Argument { ty, fields }| {
-        let values: Vec<TokenStream> = fields.iter().map(value).collect();
+        let values: Vec<TokenStream> = fields.iter().map(|field| code::value(&field.value)).collect();
         match ty {
             Some(index) => types::construct(spec, *index, &values),
             None => quote!(#(#values)*),

@@ -74,6 +74,7 @@ pub(super) fn emit(spec: &Spec, item: &Item) -> TokenStream {
     let receiver = code::reads(&item.program, "a").then(|| quote!(let a = self;));
     let argument = if code::reads(&item.program, "b") { format_ident!("b") } else { format_ident!("_b") };
     let scalar = quote!(::ga_physics::algebra::Scalar);
+    let inline = code::inline(&item.program);
     match item.operation {
         Operation::Product(kind, ..) => {
             let (a, b, method) = (operand(0), operand(1), method(kind));
@@ -86,7 +87,7 @@ pub(super) fn emit(spec: &Spec, item: &Item) -> TokenStream {
                 impl<T: #scalar> ::core::ops::#operator<#b> for #a {
                     type Output = #output;
                     #[doc = #doc]
-                    #[inline]
+                    #inline
                     #[allow(clippy::suspicious_arithmetic_impl, reason = "products of multivectors are sums of products")]
                     fn #method(self, #argument: #b) -> #output { #receiver #body }
                 }
@@ -121,7 +122,7 @@ pub(super) fn emit(spec: &Spec, item: &Item) -> TokenStream {
                 impl<T: #scalar> ::ga_physics::algebra::Apply<#b> for #a {
                     type Output = #output;
                     #[doc = #doc]
-                    #[inline]
+                    #inline
                     fn apply(self, #argument: #b) -> #output { #receiver #body }
                 }
             }
@@ -150,12 +151,12 @@ pub(super) fn emit(spec: &Spec, item: &Item) -> TokenStream {
 
 fn body(spec: &Spec, item: &Item) -> TokenStream {
     let steps = code::steps(&item.program);
-    let values: Vec<TokenStream> = item.program.outputs.iter().map(|output| code::value(&output.value)).collect();
+    let (statements, values) = code::results(&item.program);
     let result = match item.output {
         Output::Scalar => quote!(#(#values)*),
         Output::Type(index) => types::construct(spec, index, &values),
     };
-    quote!(#steps #result)
+    quote!(#steps #statements #result)
 }
 
 fn inherent(
