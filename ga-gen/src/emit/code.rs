@@ -38,7 +38,7 @@ pub(super) fn steps_with(program: &Program, call: impl Fn(&Call) -> TokenStream)
 pub(super) fn results(program: &Program) -> (TokenStream, Vec<TokenStream>) {
     let length = |output: &Step| if let Value::Sum(products) = &output.value { products.len() } else { 1 };
     let longest = program.outputs.iter().map(length).max().unwrap_or_default();
-    let name = |output: &Step| format!("result_{}", output.name);
+    let name = |output: &Step| format!("result_{}", output.name.replace('.', "_"));
     let taken = |name: &String| program.steps.iter().any(|step| step.name == *name) || reads(program, name);
     let differ = program.outputs.iter().any(|output| length(output) != longest);
     if longest <= SHORT_SUM || !differ || program.outputs.iter().map(name).any(|name| taken(&name)) {
