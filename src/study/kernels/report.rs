@@ -129,18 +129,18 @@ impl StudyReport {
             ["kernel", "dynamic / generated, time", "bytes generated", "dynamic", "ratio", "nalgebra / generated"];
         let mut rows = vec![heading.map(String::from).to_vec()];
         for kernel in &self.kernels {
-            let (Some(generated), Some(dynamic), Some(hand)) =
-                (kernel.way(Role::Generated), kernel.way(Role::Dynamic), kernel.way(Role::HandWritten))
-            else {
+            let (Some(generated), Some(dynamic)) = (kernel.way(Role::Generated), kernel.way(Role::Dynamic)) else {
                 continue;
             };
+            let hand = kernel.way(Role::HandWritten);
             rows.push(vec![
                 kernel.name.into(),
                 ratio_text(dynamic.time_ratio),
                 generated.bytes.to_string(),
                 dynamic.bytes.to_string(),
                 rounded(dynamic.bytes_ratio),
-                ratio_text(hand.time_ratio),
+                // nalgebra has no general multivector.
+                hand.map_or(String::new(), |hand| ratio_text(hand.time_ratio)),
             ]);
         }
         Table(rows)
