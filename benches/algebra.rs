@@ -1,4 +1,5 @@
-//! Generated types against the dynamic multivector: `cargo bench --bench algebra`.
+//! Generated types against the dynamic multivector, nalgebra, glam and the formulas written out:
+//! `cargo bench --bench algebra`.
 //!
 //! One criterion group a kernel, then the table of ratios with their uncertainty and of bytes, from the study's own
 //! interleaved timer (the same closures; criterion times one rival after the other, which a change of the machine's
@@ -6,14 +7,15 @@
 #![allow(missing_docs, reason = "the macro's main function has no place for them")]
 #![allow(clippy::unwrap_used, reason = "a bench may panic")]
 
+mod rivals;
+
 use criterion::{Criterion, Throughput, criterion_group};
 use ga_physics::study::kernels;
 use ga_physics::study::timing::Effort;
 use std::time::Duration;
 
 fn algebra(criterion: &mut Criterion) {
-    for kernel in kernels::kernels() {
-        kernel.check().unwrap();
+    for kernel in rivals::checked() {
         let mut group = criterion.benchmark_group(kernel.name);
         group.throughput(Throughput::Elements(kernel.calls() as u64));
         for way in &kernel.ways {
@@ -23,7 +25,7 @@ fn algebra(criterion: &mut Criterion) {
     }
 }
 
-/// 24 benchmarks of about 2 s each.
+/// 61 benchmarks of about 2 s each.
 fn settings() -> Criterion {
     Criterion::default()
         .sample_size(50)
@@ -43,7 +45,8 @@ fn main() {
     // As a test (`cargo test --benches`) or with a filter, the table is not what was asked for.
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     if arguments == ["--bench"] {
-        let report = kernels::measure(Effort::FULL, "cargo bench --bench algebra", &mut |_| {}).unwrap();
+        let report =
+            kernels::measure(rivals::checked(), Effort::FULL, "cargo bench --bench algebra", &mut |_| {}).unwrap();
         println!("\n{}", report.text());
     }
 }
