@@ -1,6 +1,6 @@
 //! The kernels on glam's double-precision types, as a user of glam would write them.
 
-use ga_physics::algebra::cga::{Plane, Point, Translator};
+use ga_physics::algebra::cga::{Motor, Plane, Point};
 use ga_physics::algebra::g3::{Rotor, Vector};
 use ga_physics::study::kernels::{Kernel, Role, Way, inputs};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
@@ -40,8 +40,8 @@ pub(super) fn motor_times_motor(kernel: Kernel) -> Kernel {
         poses,
         |[(q, t), (r, u)]: &[(DQuat, DVec3); 2]| (*q * *r, *q * *u + *t),
         |(q, t)| {
-            let half = Translator::new(-0.5 * t.x, -0.5 * t.y, -0.5 * t.z);
-            <[f64; 8]>::from(half * Rotor::new(q.w, -q.x, -q.y, -q.z)).to_vec()
+            let rotor = Rotor::new(q.w, -q.x, -q.y, -q.z);
+            <[f64; 8]>::from(Motor::from_parts(Vector::new(t.x, t.y, t.z), rotor)).to_vec()
         },
     ))
 }

@@ -2,8 +2,8 @@
 //!
 //! Quaternions are `[w, x, y, z]`, the rotor `w - x e23 - y e31 - z e12`.
 
-use ga_physics::algebra::cga::{Plane, Translator};
-use ga_physics::algebra::g3::Rotor;
+use ga_physics::algebra::cga::{Motor, Plane};
+use ga_physics::algebra::g3::{Rotor, Vector};
 use ga_physics::study::kernels::{Kernel, Role, Way, inputs};
 
 const HAND: Role = Role::Rival("hand f64");
@@ -34,8 +34,7 @@ pub(super) fn motor_times_motor(kernel: Kernel) -> Kernel {
         |[(q, t), (r, u)]: &[(Q, V); 2]| (product(*q, *r), add(turned(*q, *u), *t)),
         |(q, t)| {
             let [s, e23, e31, e12] = rotor(*q);
-            let half = Translator::new(-0.5 * t[0], -0.5 * t[1], -0.5 * t[2]);
-            <[f64; 8]>::from(half * Rotor::new(s, e23, e31, e12)).to_vec()
+            <[f64; 8]>::from(Motor::from_parts(Vector::from(*t), Rotor::new(s, e23, e31, e12))).to_vec()
         },
     ))
 }

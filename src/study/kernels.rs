@@ -16,7 +16,9 @@ pub use flats::{line_meets_plane, ray_meets_plane};
 pub use products::{even_product, general_product};
 pub use report::{KernelRow, StudyReport, WayRow};
 pub use rounds::{balls_overlap, circle_of_three_points, sphere_of_four_points};
-pub use versors::{motor_on_point, motor_times_motor, rotor_on_vector, rotor_times_rotor};
+pub use versors::{
+    motor_on_point, motor_times_motor, pose_on_point, pose_times_pose, rotor_on_vector, rotor_times_rotor,
+};
 
 use super::timing::{self, Effort};
 use super::{Provenance, StudyError};
@@ -255,11 +257,13 @@ fn worse(a: f64, b: f64) -> f64 {
 }
 
 /// All kernels, each made when it is called for.
-pub const KERNELS: [fn() -> Kernel; 11] = [
+pub const KERNELS: [fn() -> Kernel; 13] = [
     rotor_times_rotor,
     rotor_on_vector,
     motor_on_point,
     motor_times_motor,
+    pose_on_point,
+    pose_times_pose,
     sphere_of_four_points,
     circle_of_three_points,
     line_meets_plane,

@@ -19,8 +19,8 @@ fn with_peers(kernel: Kernel) -> Kernel {
     match kernel.name {
         "rotor * rotor" => other_ways::rotor_times_rotor(clifford_ways::rotor_times_rotor(kernel)),
         "rotor on vector" => other_ways::rotor_on_vector(clifford_ways::rotor_on_vector(kernel)),
-        "motor on point" => other_ways::motor_on_point(clifford_ways::motor_on_point(kernel)),
-        "motor * motor" => other_ways::motor_times_motor(clifford_ways::motor_times_motor(kernel)),
+        "motor on point" | "pose on point" => other_ways::motor_on_point(clifford_ways::motor_on_point(kernel)),
+        "motor * motor" | "pose * pose" => other_ways::motor_times_motor(clifford_ways::motor_times_motor(kernel)),
         "sphere of four points" => clifford_ways::sphere_of_four_points(kernel),
         "multivector * multivector" => clifford_ways::general_product(kernel),
         _ => kernel,

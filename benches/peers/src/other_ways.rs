@@ -1,6 +1,6 @@
 //! ultraviolet 0.10 (f64 and f32), geometric_algebra 0.3 (f32 only) and wedged 0.1.1 (f64).
 
-use ga_physics::algebra::cga::{Point, Translator};
+use ga_physics::algebra::cga::{Motor, Point};
 use ga_physics::algebra::g3;
 use ga_physics::study::kernels::{Kernel, Role, Way, inputs};
 use geometric_algebra::ppga3d;
