@@ -65,8 +65,8 @@ pub(crate) fn motor_times_motor(kernel: Kernel) -> Kernel {
         |pose| {
             let t = pose.translation;
             let [s, e23, e31, e12]: [f64; 4] = std::array::from_fn(|i| rotor_numbers(pose.rotation)[i]);
-            let half = Translator::new(-0.5 * t.x, -0.5 * t.y, -0.5 * t.z);
-            <[f64; 8]>::from(half * g3::Rotor::new(s, e23, e31, e12)).to_vec()
+            let motor = Motor::from_parts(g3::Vector::new(t.x, t.y, t.z), g3::Rotor::new(s, e23, e31, e12));
+            <[f64; 8]>::from(motor).to_vec()
         },
     ))
 }
