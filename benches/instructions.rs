@@ -80,12 +80,13 @@ fn is_floor(role: Role) -> bool {
 
 /// Markdown: one line a kernel.
 fn table(kernels: &[Kernel], counts: &[f64]) -> String {
-    const COLUMNS: [Role; 7] = [
+    const COLUMNS: [Role; 8] = [
         Role::Generated,
         Role::HandWritten,
         Role::Rival("glam f64"),
         Role::Rival("hand f64"),
         Role::Rival("glam affine f64"),
+        Role::Rival("hand Gram f64"),
         Role::GeneratedSingle,
         Role::Dynamic,
     ];

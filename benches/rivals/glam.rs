@@ -58,14 +58,13 @@ pub(super) fn sphere_of_four_points(kernel: Kernel) -> Kernel {
     kernel.with(Way::rival(GLAM, inputs, sphere, centre_and_square))
 }
 
-/// `2 G (s, t) = (u², v²)` with the Gram matrix of the edges.
+/// In the frame of the first point `(u×v) × (|v|² u - |u|² v) / (2 |u×v|²)`.
 pub(super) fn circle_of_three_points(kernel: Kernel) -> Kernel {
     let inputs = inputs::triangles().into_iter().map(|points| points.map(position)).collect();
     let circle = |[a, b, c]: &[DVec3; 3]| {
         let (u, v) = (b - a, c - a);
-        let (uu, uv, vv) = (u.length_squared(), u.dot(v), v.length_squared());
-        let scale = 0.5 / (uu * vv - uv * uv);
-        let radius = u * (vv * (uu - uv) * scale) + v * (uu * (vv - uv) * scale);
+        let normal = u.cross(v);
+        let radius = normal.cross(u * v.length_squared() - v * u.length_squared()) * (0.5 / normal.length_squared());
         (a + radius, radius.length_squared())
     };
     kernel.with(Way::rival(GLAM, inputs, circle, centre_and_square))

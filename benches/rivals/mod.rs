@@ -9,7 +9,7 @@ mod hand;
 use ga_physics::study::kernels::{self, Kernel, Way};
 
 /// The kernels, each made when it is called for, with the number of its ways.
-pub(crate) const KERNELS: [(fn() -> Kernel, usize); 13] = [
+pub(crate) const KERNELS: [(fn() -> Kernel, usize); 17] = [
     (|| hand::rotor_times_rotor(glam::rotor_times_rotor(kernels::rotor_times_rotor())), 6),
     (|| hand::rotor_on_vector(glam::rotor_on_vector(kernels::rotor_on_vector())), 6),
     (|| hand::motor_on_point(glam::motor_on_point(kernels::motor_on_point())), 7),
@@ -17,12 +17,16 @@ pub(crate) const KERNELS: [(fn() -> Kernel, usize); 13] = [
     (|| hand::motor_on_point(glam::motor_on_point(kernels::pose_on_point())), 7),
     (|| hand::motor_times_motor(glam::motor_times_motor(kernels::pose_times_pose())), 6),
     (|| hand::sphere_of_four_points(glam::sphere_of_four_points(kernels::sphere_of_four_points())), 6),
-    (|| hand::circle_of_three_points(glam::circle_of_three_points(kernels::circle_of_three_points())), 6),
+    (|| hand::circle_of_three_points(glam::circle_of_three_points(kernels::circle_of_three_points())), 7),
     (|| hand::line_meets_plane(glam::line_meets_plane(kernels::line_meets_plane())), 6),
     (|| hand::ray_meets_plane(glam::ray_meets_plane(kernels::ray_meets_plane())), 6),
     (|| hand::balls_overlap(glam::balls_overlap(kernels::balls_overlap())), 6),
+    (kernels::conformal_on_point, 3),
+    (kernels::conformal_times_conformal, 3),
     (kernels::even_product, 3),
+    (kernels::even_product_split, 3),
     (kernels::general_product, 3),
+    (kernels::general_product_split, 3),
 ];
 
 /// The kernels, made and checked: all ways give the same results.

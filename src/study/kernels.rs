@@ -13,7 +13,10 @@ mod rounds;
 mod versors;
 
 pub use flats::{line_meets_plane, ray_meets_plane};
-pub use products::{even_product, general_product};
+pub use products::{
+    conformal_on_point, conformal_times_conformal, even_product, even_product_split, general_product,
+    general_product_split,
+};
 pub use report::{KernelRow, StudyReport, WayRow};
 pub use rounds::{balls_overlap, circle_of_three_points, sphere_of_four_points};
 pub use versors::{
@@ -257,7 +260,7 @@ fn worse(a: f64, b: f64) -> f64 {
 }
 
 /// All kernels, each made when it is called for.
-pub const KERNELS: [fn() -> Kernel; 13] = [
+pub const KERNELS: [fn() -> Kernel; 17] = [
     rotor_times_rotor,
     rotor_on_vector,
     motor_on_point,
@@ -269,8 +272,12 @@ pub const KERNELS: [fn() -> Kernel; 13] = [
     line_meets_plane,
     ray_meets_plane,
     balls_overlap,
+    conformal_on_point,
+    conformal_times_conformal,
     even_product,
+    even_product_split,
     general_product,
+    general_product_split,
 ];
 
 /// All kernels.

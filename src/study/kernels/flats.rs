@@ -3,7 +3,7 @@
 use super::numbers::{E, E1, E2, E3, EBAR, Multi, coefficients, numbers, position, single, vector};
 use super::{Kernel, Way, inputs};
 use crate::algebra::Scalar;
-use crate::algebra::cga::{self, FlatPoint, Infinity, Line, Plane, Point};
+use crate::algebra::cga::{self, FinitePoint, Infinity, Line, Plane, Point};
 use crate::algebra::dynamic::ToDynamic;
 use crate::algebra::g3::Vector;
 use crate::geometry::formulas;
@@ -12,9 +12,8 @@ use nalgebra::Vector3;
 /// The point in which a line meets a plane; the line is six numbers, `A ^ B ^ ninf`.
 #[must_use]
 pub fn line_meets_plane() -> Kernel {
-    fn meet<T: Scalar>((plane, line): &(Plane<T>, Line<T>)) -> Point<T> {
-        let flat = *plane | *line;
-        position_of(flat, Point::new(T::ratio(0, 1), T::ratio(0, 1), T::ratio(0, 1)))
+    fn meet<T: Scalar>((plane, line): &(Plane<T>, Line<T>)) -> FinitePoint<T> {
+        formulas::line_blade_meets_plane(*line, *plane)
     }
     let inputs = inputs::planes_and_lines();
     let flats: Vec<_> = inputs.iter().map(|(plane, [p, q])| (*plane, (*p ^ *q) ^ Infinity)).collect();
@@ -42,12 +41,8 @@ pub fn line_meets_plane() -> Kernel {
 /// The point in which a line, given by a point and a direction, meets a plane.
 #[must_use]
 pub fn ray_meets_plane() -> Kernel {
-    /// In the frame of p, where the plane is at the distance `delta - n . p`.
-    fn meet<T: Scalar>((plane, p, d): &(Plane<T>, Point<T>, Vector<T>)) -> Point<T> {
-        let zero = T::ratio(0, 1);
-        let here = Point::new(zero, zero, zero);
-        let local = Plane::new(plane.e1, plane.e2, plane.e3, -(*p | *plane));
-        position_of(formulas::line_meets_plane_relative(here, Point::new(d.e1, d.e2, d.e3), local), *p)
+    fn meet<T: Scalar>((plane, p, d): &(Plane<T>, Point<T>, Vector<T>)) -> FinitePoint<T> {
+        formulas::ray_meets_plane(*p, *d, *plane)
     }
     let inputs = inputs::planes_and_lines();
     let rays = inputs.iter().map(|(plane, [p, q])| (*plane, *p, Vector::new(q.x - p.x, q.y - p.y, q.z - p.z)));
@@ -77,12 +72,7 @@ pub fn ray_meets_plane() -> Kernel {
         ))
 }
 
-/// `X ^ ninf = x ^ ninf + no ^ ninf`: the point, seen from `from`, is the ratio of coefficients.
-fn position_of<T: Scalar>(flat: FlatPoint<T>, from: Point<T>) -> Point<T> {
-    let scale = T::ratio(1, 1) / flat.no_ninf;
-    Point::new(from.x + flat.e1_ninf * scale, from.y + flat.e2_ninf * scale, from.z + flat.e3_ninf * scale)
-}
-
+/// `X ^ ninf = x ^ ninf + no ^ ninf`: the point is the ratio of coefficients.
 fn dynamic_position(flat: &Multi<cga::Algebra>) -> Vec<f64> {
     let weight = -flat.coefficient(E | EBAR);
     coefficients(flat, [E1 | E, E2 | E, E3 | E]).into_iter().map(|x| x / weight).collect()

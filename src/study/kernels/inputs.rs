@@ -2,7 +2,7 @@
 //!
 //! Rivals outside of the library, in `benches/`, start from these lists too; all are well-conditioned.
 
-use crate::algebra::cga::{Even, Multivector, Plane, Point};
+use crate::algebra::cga::{ConformalRotor, Dilator, Even, Motor, Multivector, Plane, Point};
 use crate::algebra::g3::{Rotor, Vector};
 
 /// Inputs of each kernel: enough that no branch predictor learns them by heart.
@@ -72,6 +72,18 @@ pub fn even_pairs() -> Vec<(Even, Even)> {
     list(10, |random| (Even::from_fn(|_| random.number()), Even::from_fn(|_| random.number())))
 }
 
+/// Two conformal rotors: see [`conformals_and_points`].
+#[must_use]
+pub fn conformal_pairs() -> Vec<(ConformalRotor, ConformalRotor)> {
+    list(11, |random| (random.conformal(), random.conformal()))
+}
+
+/// A conformal rotor, of a transversion, a motion and a scaling by 1/2 to 2, and a point that it does not take to infinity.
+#[must_use]
+pub fn conformals_and_points() -> Vec<(ConformalRotor, Point)> {
+    list(12, |random| (random.conformal(), random.point()))
+}
+
 fn list<I>(seed: u64, mut make: impl FnMut(&mut Random) -> I) -> Vec<I> {
     let mut random = Random(seed);
     (0..INPUTS).map(|_| make(&mut random)).collect()
@@ -113,6 +125,15 @@ impl Random {
 
     fn pose(&mut self) -> (Vector, Rotor) {
         (self.vector(), self.rotor())
+    }
+
+    /// `K D T R`, with a transversion `K = 1 + b no` so weak that no point of the cube comes near infinity.
+    fn conformal(&mut self) -> ConformalRotor {
+        let (t, r) = self.pose();
+        let root = f64::exp2(0.5 * self.number());
+        let mut transversion = ConformalRotor::default();
+        [transversion.v1, transversion.v2, transversion.v3] = std::array::from_fn(|_| 0.05 * self.number());
+        transversion * (Dilator::new(root, 1.0 / root) * Motor::from_parts(t, r))
     }
 
     fn tetrahedron(&mut self) -> [Point; 4] {

@@ -44,6 +44,12 @@ pub(super) fn sphere_of(s: &Multi<cga::Algebra>) -> Vec<f64> {
     [centre, vec![rho_sq]].concat()
 }
 
+/// A point of any weight: its Euclidean coefficients over the weight.
+pub(super) fn point_of(x: &Multi<cga::Algebra>) -> Vec<f64> {
+    let weight = x.coefficient(EBAR) - x.coefficient(E);
+    coefficients(x, [E1, E2, E3]).into_iter().map(|x| x / weight).collect()
+}
+
 /// A truth value beside a 1, so that a relative difference exists.
 pub(super) fn truth(value: bool) -> Vec<f64> {
     vec![1.0, f64::from(value)]

@@ -4,7 +4,6 @@ use super::numbers::{Multi, numbers, position, single, sphere_of, truth};
 use super::{Kernel, Way, inputs};
 use crate::algebra::cga::{self, Point, Sphere};
 use crate::algebra::dynamic::ToDynamic;
-use crate::algebra::g3::Vector;
 use crate::algebra::{Real, Scalar};
 use crate::geometry::formulas;
 use nalgebra::Vector3;
@@ -47,10 +46,7 @@ fn circumsphere_by_vectors([a, b, c, d]: &[Vector3<f64>; 4]) -> (Vector3<f64>, f
 #[must_use]
 pub fn circle_of_three_points() -> Kernel {
     fn circle<T: Scalar>([a, b, c]: &[Point<T>; 3]) -> Sphere<T> {
-        let round = formulas::circle_sphere_relative(*a, *b, *c);
-        let scale = T::ratio(1, 1) / round.no;
-        let radius = Vector::new(round.e1 * scale, round.e2 * scale, round.e3 * scale);
-        Sphere::new(a.x + radius.e1, a.y + radius.e2, a.z + radius.e3, radius.norm_sq())
+        formulas::circle_sphere(*a, *b, *c)
     }
     let inputs = inputs::triangles();
     Kernel::new("circle of three points", "dual(K ^ dual(K ^ ninf)), normalised, with K = A ^ B ^ C")
@@ -59,7 +55,7 @@ pub fn circle_of_three_points() -> Kernel {
         .with(Way::dynamic(
             &inputs,
             |points| points.map(|point| point.to_dynamic()),
-            |[a, b, c]: &[Multi<cga::Algebra>; 3]| formulas::circle_sphere_relative_dynamic(a, b, c),
+            |[a, b, c]: &[Multi<cga::Algebra>; 3]| formulas::circle_sphere_dynamic(a, b, c),
             sphere_of,
         ))
         .with(Way::hand_written(
@@ -70,28 +66,27 @@ pub fn circle_of_three_points() -> Kernel {
         ))
 }
 
-/// The centre `a + s u + t v` is as far from `a` as from b and c: `2 G (s, t) = (u², v²)` with the Gram matrix G of u, v.
+/// The centre in the frame of a: `(u×v) × (|v|² u - |u|² v) / (2 |u×v|²)`. The Gram matrix of u and v gives it in fewer
+/// operations, but its determinant `u² v² - (u.v)²` cancels: an error of `eps/sin²` in the place of `eps/sin`.
 fn circle_by_vectors([a, b, c]: &[Vector3<f64>; 3]) -> (Vector3<f64>, f64) {
     let (u, v) = (b - a, c - a);
-    let (uu, uv, vv) = (u.norm_squared(), u.dot(&v), v.norm_squared());
-    let scale = 0.5 / (uu * vv - uv * uv);
-    let radius = u * (vv * (uu - uv) * scale) + v * (uu * (vv - uv) * scale);
+    let normal = u.cross(&v);
+    let radius = normal.cross(&(u * v.norm_squared() - v * u.norm_squared())) * (0.5 / normal.norm_squared());
     (a + radius, radius.norm_squared())
 }
 
 /// Whether two balls have a point in common.
 #[must_use]
 pub fn balls_overlap() -> Kernel {
-    /// `S . T = (r² + s² - d²)/2`, and `d <= r + s` means `S . T >= -r s`.
-    fn overlap<T: Real>([s, t]: &[Sphere<T>; 2]) -> bool {
-        let product = *s | *t;
-        (product >= T::zero()) | (product * product <= s.rho_sq * t.rho_sq)
+    fn overlap<T: Real>([(a, r), (b, s)]: &[(Point<T>, T); 2]) -> bool {
+        let (reach_sq, distance_sq) = formulas::ball_reach_and_distance_sq(*a, *r, *b, *s);
+        distance_sq <= reach_sq
     }
     let inputs = inputs::ball_pairs();
     let spheres: Vec<_> = inputs.iter().map(|balls| balls.map(|(c, r)| Sphere::new(c.x, c.y, c.z, r * r))).collect();
-    Kernel::new("balls overlap", "S . T >= -r s")
-        .with(Way::generated(&spheres, overlap, |hit| truth(*hit)))
-        .with(Way::single(&spheres, |pair| pair.map(|s| s.map(single)), overlap, |hit| truth(*hit)))
+    Kernel::new("balls overlap", "-2 A . B <= (r + s)²; dynamic: S . T >= -r s")
+        .with(Way::generated(&inputs, overlap, |hit| truth(*hit)))
+        .with(Way::single(&inputs, |pair| pair.map(|(c, r)| (c.map(single), single(r))), overlap, |hit| truth(*hit)))
         .with(Way::dynamic(
             &spheres,
             |pair| pair.map(|sphere| sphere.to_dynamic()),
