@@ -6,27 +6,62 @@
 
 use crate::program::{Counts, Program};
 
-/// Which way to take at each point, and how many there were.
+/// A point where there were several ways to go on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Choice {
+    /// What was to be computed.
+    pub what: &'static str,
+    /// The ways, by name.
+    pub ways: Vec<&'static str>,
+    /// The one that was taken.
+    pub taken: usize,
+}
+
+/// Which way to take at each point, and what the choices were.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Plan {
     wanted: Vec<usize>,
     /// The way at points beyond.
     otherwise: usize,
-    taken: Vec<usize>,
-    ways: Vec<usize>,
+    made: Vec<Choice>,
 }
 
 impl Plan {
     fn new(wanted: Vec<usize>, otherwise: usize) -> Self {
-        Self { wanted, otherwise, taken: vec![], ways: vec![] }
+        Self { wanted, otherwise, made: vec![] }
     }
 
     /// The way to take at the next point; the last where there are fewer.
-    pub fn choose(&mut self, ways: usize) -> usize {
-        let way = self.wanted.get(self.ways.len()).copied().unwrap_or(self.otherwise).min(ways - 1);
-        self.ways.push(ways);
-        self.taken.push(way);
-        way
+    pub fn choose(&mut self, what: &'static str, ways: &[&'static str]) -> usize {
+        let taken = self.wanted.get(self.made.len()).copied().unwrap_or(self.otherwise).min(ways.len() - 1);
+        self.made.push(Choice { what, ways: ways.to_vec(), taken });
+        taken
+    }
+
+    /// The choices that were made by this plan.
+    #[must_use]
+    pub fn made(&self) -> &[Choice] {
+        &self.made
+    }
+
+    fn taken(&self) -> Vec<usize> {
+        self.made.iter().map(|choice| choice.taken).collect()
+    }
+
+    /// A fresh plan that makes the same choices.
+    #[must_use]
+    pub fn again(&self) -> Self {
+        Self::new(self.taken(), self.otherwise)
+    }
+
+    /// A fresh plan that makes the same choices but one.
+    #[must_use]
+    pub fn with(&self, point: usize, way: usize) -> Self {
+        let mut wanted = self.taken();
+        if let Some(choice) = wanted.get_mut(point) {
+            *choice = way;
+        }
+        Self::new(wanted, self.otherwise)
     }
 }
 
@@ -39,31 +74,30 @@ pub fn cost(counts: Counts) -> (usize, usize) {
     (counts.div + counts.sqrt, counts.operations())
 }
 
-/// The cheapest result of lowering by any plan that was tried; `None` where the first has none.
+/// The cheapest result of lowering by any plan that was tried, with its plan; `None` where the first has none.
 ///
 /// # Errors
 /// Those of the lowering.
 pub fn cheapest<R, E>(
     mut lower: impl FnMut(Plan) -> Result<Option<(R, Plan)>, E>,
     program: impl Fn(&R) -> &Program,
-) -> Result<Option<R>, E> {
+) -> Result<Option<(R, Plan)>, E> {
     let Some((mut best, mut plan)) = lower(Plan::default())? else { return Ok(None) };
     // Products that pay only together: the same way everywhere.
-    let most = plan.ways.iter().copied().max().unwrap_or(1);
-    let uniform = if plan.ways.len() > 1 { 1..most } else { 1..1 };
+    let most = plan.made.iter().map(|choice| choice.ways.len()).max().unwrap_or(1);
+    let uniform = if plan.made.len() > 1 { 1..most } else { 1..1 };
     for way in uniform {
         improve(&mut lower, &program, Plan::new(vec![], way), &mut best, &mut plan)?;
     }
     let mut point = 0;
-    while point < plan.ways.len().min(MOST_POINTS) {
-        for way in (0..plan.ways[point]).filter(|way| plan.taken[point] != *way).collect::<Vec<_>>() {
-            let mut wanted = plan.taken.clone();
-            wanted[point] = way;
-            improve(&mut lower, &program, Plan::new(wanted, plan.otherwise), &mut best, &mut plan)?;
+    while point < plan.made.len().min(MOST_POINTS) {
+        let Choice { ways, taken, .. } = plan.made[point].clone();
+        for way in (0..ways.len()).filter(|way| *way != taken) {
+            improve(&mut lower, &program, plan.with(point, way), &mut best, &mut plan)?;
         }
         point += 1;
     }
-    Ok(Some(best))
+    Ok(Some((best, plan)))
 }
 
 /// Lowers by a plan, and keeps the result if it is cheaper.

@@ -46,6 +46,8 @@ pub struct Compiled {
     pub signs: Vec<Option<Rational>>,
     /// For each step that is a call, the types of the arguments.
     pub arguments: BTreeMap<usize, Vec<Output>>,
+    /// How it was lowered.
+    pub plan: Plan,
 }
 
 /// Compiles a formula: lowers it in each way worth trying, and keeps the cheapest program.
@@ -76,7 +78,7 @@ pub fn compile(spec: &Spec, formula: &Formula) -> syn::Result<Compiled> {
 }
 
 /// The cheapest program in the formula's own frame, among those with the given values at the random points.
-fn cheapest_in(spec: &Spec, formula: &Formula, world: &[Vec<Fingerprint>]) -> syn::Result<Option<Compiled>> {
+pub(crate) fn cheapest_in(spec: &Spec, formula: &Formula, world: &[Vec<Fingerprint>]) -> syn::Result<Option<Compiled>> {
     let compiled = |plan: Plan| -> syn::Result<Option<(Compiled, Plan)>> {
         // The first way has a value; in another one none may be found, say no sum of squares: it is then no rival.
         let Ok((lowered, plan)) = lower(spec, formula, plan) else { return Ok(None) };
@@ -85,13 +87,14 @@ fn cheapest_in(spec: &Spec, formula: &Formula, world: &[Vec<Fingerprint>]) -> sy
         }
         let program = optimise(&lowered.builder, &outputs(spec, formula, &lowered.results), Effort::Whole);
         let (signs, arguments) = (lowered.signs, lowered.arguments);
-        Ok(Some((Compiled { formula: formula.clone(), program, signs, arguments }, plan)))
+        Ok(Some((Compiled { formula: formula.clone(), program, signs, arguments, plan: plan.clone() }, plan)))
     };
-    cheapest(compiled, |compiled| &compiled.program)
+    Ok(cheapest(compiled, |compiled| &compiled.program)?.map(|(compiled, _)| compiled))
 }
 
 /// The names and values of all numbers of the results.
-fn outputs(spec: &Spec, formula: &Formula, results: &[(Output, Vec<Scaled>)]) -> Vec<(String, Scaled)> {
+#[must_use]
+pub fn outputs(spec: &Spec, formula: &Formula, results: &[(Output, Vec<Scaled>)]) -> Vec<(String, Scaled)> {
     let mut outputs = Vec::new();
     for (index, (output, fields)) in results.iter().enumerate() {
         let place = if formula.source.header.tuple { index.to_string() } else { String::new() };

@@ -7,7 +7,7 @@ use crate::lower::{Components, Lowering, Schedule};
 use crate::normalise::by_weight;
 use crate::optimise::{Effort, optimise};
 use crate::product::Kind;
-use crate::program::{Program, Scaled};
+use crate::program::{Builder, Program, Scaled};
 use crate::scalar::Rational;
 use crate::spec::Spec;
 
@@ -47,6 +47,8 @@ pub struct Item {
     pub output: Output,
     /// The scalar code.
     pub program: Program,
+    /// How it was lowered.
+    pub plan: Plan,
 }
 
 /// All operations that may exist; [`compile`] says which do.
@@ -99,6 +101,17 @@ pub fn operations(spec: &Spec) -> Vec<Operation> {
     result
 }
 
+/// A lowered operation.
+#[derive(Clone, Debug)]
+pub struct Lowered {
+    /// The graph.
+    pub builder: Builder,
+    /// The type of the result.
+    pub output: Output,
+    /// The names and values of its fields.
+    pub fields: Vec<(String, Scaled)>,
+}
+
 /// Compiles an operation; `None` where it is identically zero, undefined, no declared type holds its result, or a
 /// constant of it exceeds 32 bits.
 ///
@@ -107,17 +120,27 @@ pub fn operations(spec: &Spec) -> Vec<Operation> {
 pub fn compile(spec: &Spec, operation: Operation) -> syn::Result<Option<Item>> {
     let (name, parameters) = describe(spec, operation);
     let lower = |plan: Plan| -> syn::Result<Option<((Output, Program), Plan)>> {
-        let mut lowering = Lowering::new(spec, plan, Schedule::Stable);
-        let lowered = lower(&mut lowering, operation, &parameters)?;
-        let (builder, plan) = lowering.finish();
-        Ok(lowered.map(|(output, fields)| {
-            let outputs: Vec<(String, Scaled)> = field_names(spec, output).into_iter().zip(fields).collect();
-            ((output, optimise(&builder, &outputs, Effort::Product)), plan)
-        }))
+        let lowered = lower_by(spec, operation, plan)?;
+        let program = |lowered: &Lowered| optimise(&lowered.builder, &lowered.fields, Effort::Product);
+        Ok(lowered.map(|(lowered, plan)| ((lowered.output, program(&lowered)), plan)))
     };
     let best = cheapest(lower, |(_, program)| program)?;
-    let best = best.map(|(output, program)| Item { operation, name, parameters: parameters.clone(), output, program });
+    let best = best.map(|((output, program), plan)| Item { operation, name, parameters, output, program, plan });
     Ok(best.filter(|item| item.program.oversized().is_none()))
+}
+
+/// Lowers an operation by a plan; also returns the plan with the choices it made.
+///
+/// # Errors
+/// A unit type that cannot be sampled.
+pub fn lower_by(spec: &Spec, operation: Operation, plan: Plan) -> syn::Result<Option<(Lowered, Plan)>> {
+    let mut lowering = Lowering::new(spec, plan, Schedule::Stable);
+    let lowered = lower(&mut lowering, operation, &describe(spec, operation).1)?;
+    let (builder, plan) = lowering.finish();
+    Ok(lowered.map(|(output, fields)| {
+        let fields = field_names(spec, output).into_iter().zip(fields).collect();
+        (Lowered { builder, output, fields }, plan)
+    }))
 }
 
 /// The coefficients of `a ~a` for a type that declares them to be those of 1, one output a blade.
@@ -139,6 +162,12 @@ pub fn field_names(spec: &Spec, output: Output) -> Vec<String> {
         Output::Scalar => vec![String::new()],
         Output::Type(index) => spec.types[index].fields.clone(),
     }
+}
+
+/// The name under which an operation is inspected.
+#[must_use]
+pub fn name(spec: &Spec, operation: Operation) -> String {
+    describe(spec, operation).0
 }
 
 fn describe(spec: &Spec, operation: Operation) -> (String, Vec<(String, usize)>) {

@@ -60,8 +60,8 @@ impl<'a> Lowering<'a> {
     }
 
     /// Which of several ways to take.
-    pub fn choose(&mut self, ways: usize) -> usize {
-        self.plan.choose(ways)
+    pub fn choose(&mut self, what: &'static str, ways: &[&'static str]) -> usize {
+        self.plan.choose(what, ways)
     }
 
     /// The next parameter: a value of a type, reachable by a name.

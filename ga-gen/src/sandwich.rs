@@ -23,6 +23,17 @@ pub enum Sandwich {
     Spinor,
 }
 
+impl Sandwich {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Plain => "plain",
+            Self::Commutator => "commutator",
+            Self::Expanded => "expanded",
+            Self::Spinor => "spinor",
+        }
+    }
+}
+
 /// Expanding beyond this many triple products is refused.
 const EXPANSION_CAP: usize = 128;
 
@@ -40,7 +51,8 @@ impl Lowering<'_> {
         } else if self.spinor_base(x).is_some() {
             ways.push(Sandwich::Spinor);
         }
-        let way = ways[self.choose(ways.len())];
+        let names: Vec<&str> = ways.iter().map(|way| way.name()).collect();
+        let way = ways[self.choose("sandwich", &names)];
         self.sandwich_by(way, v, x)
     }
 
@@ -121,6 +133,12 @@ impl Lowering<'_> {
             Schedule::Stable if self.is_stored_split(a, b) => vec![Some(Depth::Pair), None],
             Schedule::Stable => return None,
         };
-        ways[self.choose(ways.len())]
+        let name = |depth: &Option<Depth>| match depth {
+            None => "table",
+            Some(Depth::Pair) => "split",
+            Some(Depth::PairAndVector) => "split twice",
+        };
+        let names: Vec<&str> = ways.iter().map(name).collect();
+        ways[self.choose("product", &names)]
     }
 }

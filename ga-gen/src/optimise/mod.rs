@@ -142,7 +142,7 @@ fn operands(node: &Node) -> Vec<NodeId> {
 }
 
 /// How much time a program is worth.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Effort {
     /// One of the some thousand products of an algebra, most of which nobody calls: no search for common factors.
     Product,
@@ -150,31 +150,55 @@ pub enum Effort {
     Whole,
 }
 
+/// A pass, by name: it changes the graph and keeps its values.
+type Pass = (&'static str, Effort, fn(&mut Graph));
+
+/// The passes in order, each with the least effort that includes it.
+const PASSES: [Pass; 9] = [
+    ("flatten", Effort::Product, flatten::flatten),
+    ("squares", Effort::Product, squares::complete_squares),
+    ("flatten", Effort::Product, flatten::flatten),
+    ("factor", Effort::Whole, factor::extract),
+    ("flatten", Effort::Whole, flatten::flatten),
+    ("fuse", Effort::Product, fuse::fuse_quotients),
+    ("scale", Effort::Product, scale::pull_scales),
+    ("flatten", Effort::Product, flatten::flatten),
+    ("moves", Effort::Product, moves::move_scales),
+];
+
 /// Turns the parts of a graph that the outputs need into a program.
 #[must_use]
 pub fn optimise(builder: &Builder, outputs: &[(String, Scaled)], effort: Effort) -> Program {
+    let mut graph = working_graph(builder, outputs);
+    for (_, _, pass) in PASSES.iter().filter(|(_, least, _)| *least <= effort) {
+        pass(&mut graph);
+    }
+    schedule(&graph)
+}
+
+/// The program before all passes (`lower`) and after each of them, scheduled for reading; none for a pass that the
+/// effort leaves out. The last one is what [`optimise`] returns.
+#[must_use]
+pub fn stages(builder: &Builder, outputs: &[(String, Scaled)], effort: Effort) -> Vec<(&'static str, Option<Program>)> {
+    let mut graph = working_graph(builder, outputs);
+    let mut stages = vec![("lower", Some(schedule(&graph)))];
+    for (name, least, pass) in PASSES {
+        if least <= effort {
+            pass(&mut graph);
+        }
+        stages.push((name, (least <= effort).then(|| schedule(&graph))));
+    }
+    stages
+}
+
+fn working_graph(builder: &Builder, outputs: &[(String, Scaled)]) -> Graph {
     let work = |e: &Entry| Work { hint: e.hint.clone(), node: e.node.clone(), fingerprint: e.fingerprint };
     let nodes = builder.entries().iter().map(work).collect();
-    let outputs = outputs
-        .iter()
-        .map(|(name, value)| {
-            let term = Term { coefficient: value.coefficient, factors: value.node.into_iter().collect() };
-            (name.clone(), vec![term])
-        })
-        .collect();
-    let mut graph = Graph { nodes, outputs };
-    flatten::flatten(&mut graph);
-    squares::complete_squares(&mut graph);
-    flatten::flatten(&mut graph);
-    if effort == Effort::Whole {
-        factor::extract(&mut graph);
-        flatten::flatten(&mut graph);
-    }
-    fuse::fuse_quotients(&mut graph);
-    scale::pull_scales(&mut graph);
-    flatten::flatten(&mut graph);
-    moves::move_scales(&mut graph);
-    schedule(&graph)
+    let output = |(name, value): &(String, Scaled)| {
+        let term = Term { coefficient: value.coefficient, factors: value.node.into_iter().collect() };
+        (name.clone(), vec![term])
+    };
+    Graph { nodes, outputs: outputs.iter().map(output).collect() }
 }
 
 /// Names the steps and lists them in dependency order.
