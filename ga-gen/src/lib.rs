@@ -34,6 +34,7 @@ pub mod header;
 pub mod infer;
 pub mod inspect;
 pub mod item;
+pub mod ledger;
 mod literal;
 pub mod lower;
 mod names;

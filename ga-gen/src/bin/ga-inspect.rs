@@ -1,37 +1,56 @@
-//! Shows what `algebra!` and `#[formula]` generate: `ga-inspect [--algebra FILE] FILE [ITEM]`.
+//! Shows what `algebra!` and `#[formula]` generate: `ga-inspect [options] FILE [ITEM]`.
 
+use ga_gen::inspect::{self, Format, InspectError};
+use ga_gen::ledger;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 const USAGE: &str = "\
-usage: ga-inspect [--algebra FILE] FILE [ITEM]
+usage: ga-inspect [--algebra FILE] [--format text|markdown|latex] [--blades] FILE [ITEM]
+       ga-inspect [--algebra FILE] --ledger FILE
 
 FILE holds `algebra!` or `#[formula]`. Without ITEM: the basis products and types of the algebra, and all items and
-formulas with their cost. With ITEM: operands, formula, operation counts and generated Rust. Items are named like
+formulas with their cost. With ITEM: operands, products of their blades, formula, the other ways to compute it with their
+cost, the program before and after each pass, generated Rust. Items are named like
   'Rotor*Rotor'  'Point^Point'  'Plane|Line'  'Plane&Line'  'Motor.apply(Point)'  Line.dual  Rotor.rev
   Even.grade2  'Round::from(Point)'  circumsphere
-The algebra of a formula, and one that another extends, is looked for by its name: in FILE, in a sibling named for it,
-then in --algebra FILE.";
 
+  --algebra FILE  where to look for the algebra of a formula, or one that another extends, after FILE and a sibling
+                  named for it
+  --format NAME   text (the default), markdown, or latex: a document that needs amsmath and longtable
+  --blades        products of all basis blades: of the algebra, or of the operands however many they have
+  --ledger        the cost of all items and formulas as a table with tabs";
+
+#[derive(Default)]
 struct Arguments {
     file: PathBuf,
     item: Option<String>,
     algebra: Option<PathBuf>,
+    format: Format,
+    blades: bool,
+    ledger: bool,
 }
 
 fn arguments() -> Option<Arguments> {
-    let (mut positional, mut algebra) = (Vec::new(), None);
+    let mut arguments = Arguments::default();
+    let mut positional = Vec::new();
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         match word.as_str() {
-            "--algebra" => algebra = Some(words.next()?.into()),
+            "--algebra" => arguments.algebra = Some(words.next()?.into()),
+            "--format" => arguments.format = Format::named(&words.next()?)?,
+            "--blades" => arguments.blades = true,
+            "--ledger" => arguments.ledger = true,
             _ if word.starts_with('-') => return None,
             _ => positional.push(word),
         }
     }
     let mut positional = positional.into_iter();
-    let arguments = Arguments { file: positional.next()?.into(), item: positional.next(), algebra };
-    positional.next().is_none().then_some(arguments)
+    arguments.file = positional.next()?.into();
+    arguments.item = positional.next();
+    // A ledger is of a whole file, in one format.
+    let alone = arguments.item.is_none() && !arguments.blades && arguments.format == Format::default();
+    (positional.next().is_none() && (!arguments.ledger || alone)).then_some(arguments)
 }
 
 fn main() -> ExitCode {
@@ -57,11 +76,15 @@ fn main() -> ExitCode {
     }
 }
 
-fn text(arguments: &Arguments) -> Result<String, ga_gen::inspect::InspectError> {
-    let inspected = ga_gen::inspect::load(&arguments.file, arguments.algebra.as_deref())?;
-    match &arguments.item {
-        Some(item) => ga_gen::inspect::item_text(&inspected, item, &arguments.file),
-        None => ga_gen::inspect::overview(&inspected)
-            .map_err(|error| ga_gen::inspect::InspectError::Syntax(arguments.file.clone(), error)),
+fn text(arguments: &Arguments) -> Result<String, InspectError> {
+    let inspected = inspect::load(&arguments.file, arguments.algebra.as_deref())?;
+    let fault = |error| InspectError::Syntax(arguments.file.clone(), error);
+    if arguments.ledger {
+        return Ok(ledger::text(&ledger::rows(&inspected).map_err(fault)?));
     }
+    let document = match &arguments.item {
+        Some(item) => inspect::item(&inspected, item, &arguments.file, arguments.blades)?,
+        None => inspect::overview(&inspected, arguments.blades).map_err(fault)?,
+    };
+    Ok(document.print(arguments.format))
 }
