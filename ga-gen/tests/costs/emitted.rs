@@ -1,55 +1,12 @@
-//! Ceilings on the operations of the kernels that inner loops are made of.
-//!
-//! A count above its ceiling is a loss of speed that no other test sees. A count below it is good news: lower the
-//! ceiling with it.
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
+//! What is counted is what is emitted: operators in the code against counts of the program.
 
-mod support;
-
+use crate::root;
+use crate::support::source_of;
 use ga_gen::formula::Compiled;
 use ga_gen::inspect;
-use ga_gen::item::Item;
 use ga_gen::program::Counts;
 use ga_gen::spec::Spec;
-use support::source_of;
 
-/// Name, multiplications and additions and sign changes together, divisions. No item here takes a square root.
-const G3: [(&str, usize, usize); 2] = [("Rotor*Rotor", 28, 0), ("Rotor.apply(Vector)", 30, 0)];
-const CGA: [(&str, usize, usize); 4] =
-    [("Point|Point", 10, 0), ("Motor.apply(Point)", 39, 0), ("Motor*Motor", 88, 0), ("Even*Even", 496, 0)];
-const FORMULAS: [(&str, usize, usize); 1] = [("circumsphere", 73, 1)];
-
-fn check(items: &[Item], ceilings: &[(&str, usize, usize)]) {
-    for (name, operations, div) in ceilings {
-        let item = items.iter().find(|item| item.name == *name).unwrap_or_else(|| panic!("no item {name}"));
-        check_counts(name, item.program.counts(), *operations, *div);
-    }
-}
-
-fn check_counts(name: &str, counts: Counts, operations: usize, div: usize) {
-    assert!(counts.operations() <= operations, "{name}: {counts:?}, at most {operations}");
-    assert!(counts.div <= div && counts.sqrt == 0, "{name}: {counts:?}, at most {div} divisions");
-    println!("{name}: {} operations of {operations}", counts.operations());
-}
-
-#[test]
-fn formulas_stay_below_their_ceilings() {
-    let formulas = library_formulas();
-    for (name, operations, div) in FORMULAS {
-        let found = formulas.iter().find(|(_, compiled)| compiled.formula.source.header.name == name);
-        check_counts(name, found.unwrap().1.program.counts(), operations, div);
-    }
-}
-
-#[test]
-fn kernels_stay_below_their_ceilings() {
-    let g3 = Spec::new(&source_of("g3"), None).unwrap();
-    let cga = Spec::new(&source_of("cga"), Some(&g3)).unwrap();
-    check(&inspect::items(&g3).unwrap(), &G3);
-    check(&inspect::items(&cga).unwrap(), &CGA);
-}
-
-/// What is counted is what is emitted: operators in the code against counts of the program.
 #[test]
 fn counts_are_those_of_the_emitted_code() {
     let g3 = Spec::new(&source_of("g3"), None).unwrap();
@@ -82,9 +39,8 @@ fn compare(name: &str, function: &syn::Item, counts: Counts) {
 
 /// The formulas of the library's geometry.
 fn library_formulas() -> Vec<(Spec, Compiled)> {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../src");
-    let file = root.join("geometry/formulas.rs");
-    inspect::load(&file, Some(&root.join("algebra/cga.rs"))).unwrap().formulas
+    let algebra = root().join("src/algebra/cga.rs");
+    inspect::load(&root().join("src/geometry/formulas.rs"), Some(&algebra)).unwrap().formulas
 }
 
 #[derive(Default)]
