@@ -197,7 +197,7 @@ mod conformal {
             assert_eq!(Motor::from(a * b), Motor::from(a) * Motor::from(b));
             assert_eq!(a.apply(x), Motor::from(a).apply(x));
             assert_eq!(Pose::from_parts(a.translation(), a.rotor()), a);
-            assert_eq!(a.position(), a.apply(cga::Origin));
+            assert_eq!(a.position(), a.apply(Origin));
         }
     }
 
