@@ -75,9 +75,10 @@ fn function(spec: &Spec, compiled: &Compiled) -> TokenStream {
 fn body(spec: &Spec, compiled: &Compiled, outputs: &[Output]) -> TokenStream {
     let (formula, program) = (&compiled.formula, &compiled.program);
     let mut tokens = unread(compiled);
+    let code::Results { before, after, values } = code::results(program);
+    tokens.extend(before);
     tokens.extend(code::steps_with(program, |call| call_tokens(spec, compiled, call)));
-    let (statements, values) = code::results(program);
-    tokens.extend(statements);
+    tokens.extend(after);
     let mut values = values.into_iter();
     let results: Vec<TokenStream> = outputs
         .iter()

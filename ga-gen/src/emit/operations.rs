@@ -151,12 +151,12 @@ pub(super) fn emit(spec: &Spec, item: &Item) -> TokenStream {
 
 fn body(spec: &Spec, item: &Item) -> TokenStream {
     let steps = code::steps(&item.program);
-    let (statements, values) = code::results(&item.program);
+    let code::Results { before, after, values } = code::results(&item.program);
     let result = match item.output {
         Output::Scalar => quote!(#(#values)*),
         Output::Type(index) => types::construct(spec, index, &values),
     };
-    quote!(#steps #statements #result)
+    quote!(#before #steps #after #result)
 }
 
 fn inherent(

@@ -154,7 +154,7 @@ pub enum Effort {
 type Pass = (&'static str, Effort, fn(&mut Graph));
 
 /// The passes in order, each with the least effort that includes it.
-const PASSES: [Pass; 9] = [
+const PASSES: [Pass; 10] = [
     ("flatten", Effort::Product, flatten::flatten),
     ("squares", Effort::Product, squares::complete_squares),
     ("flatten", Effort::Product, flatten::flatten),
@@ -164,6 +164,7 @@ const PASSES: [Pass; 9] = [
     ("scale", Effort::Product, scale::pull_scales),
     ("flatten", Effort::Product, flatten::flatten),
     ("moves", Effort::Product, moves::move_scales),
+    ("signs", Effort::Product, moves::align_signs),
 ];
 
 /// Turns the parts of a graph that the outputs need into a program.

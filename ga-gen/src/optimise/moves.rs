@@ -14,6 +14,44 @@ pub(super) fn move_scales(graph: &mut Graph) {
     while (0..users.len()).filter(|id| try_node(graph, *id, &users[*id])).count() > 0 {}
 }
 
+/// Turns nodes round so that results add them: where neighbouring results read alike, compilers compute them side by side.
+/// A node turns alone, or together with one that it is made of; never at a cost.
+pub(super) fn align_signs(graph: &mut Graph) {
+    let users = users(graph);
+    let minus = -Rational::ONE;
+    for index in 0..graph.outputs.len() {
+        let subtracted = |term: &Term| match term.factors[..] {
+            [node] if term.coefficient.is_negative() && !users[node].is_empty() => Some(node),
+            _ => None,
+        };
+        let Some(node) = graph.outputs[index].1.iter().find_map(subtracted) else { continue };
+        let Node::Sum(terms) = &graph.nodes[node].node else { continue };
+        let mut parts: Vec<NodeId> = terms.iter().flat_map(|term| term.factors.iter().copied()).collect();
+        parts.retain(|part| !users[*part].is_empty() && matches!(graph.nodes[*part].node, Node::Sum(_)));
+        let before = whole_cost(graph);
+        rescale(graph, node, &users[node], minus, minus);
+        let alone = whole_cost(graph) <= before;
+        let turned = alone
+            || parts.into_iter().any(|part| {
+                rescale(graph, part, &users[part], minus, minus);
+                let kept = whole_cost(graph) <= before;
+                if !kept {
+                    rescale(graph, part, &users[part], minus, minus);
+                }
+                kept
+            });
+        if !turned {
+            rescale(graph, node, &users[node], minus, minus);
+        }
+    }
+}
+
+/// Multiplications by constants and leading sign changes in all sums; nodes that nobody uses stay as they are.
+fn whole_cost(graph: &Graph) -> usize {
+    let nodes = (0..graph.nodes.len()).map(Place::Node);
+    nodes.chain((0..graph.outputs.len()).map(Place::Output)).map(|place| sum_cost(graph.terms(place))).sum()
+}
+
 fn try_node(graph: &mut Graph, id: NodeId, users: &[Place]) -> bool {
     let Node::Sum(terms) = &graph.nodes[id].node else { return false };
     if users.is_empty() {
