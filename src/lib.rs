@@ -42,6 +42,9 @@
 //! * SI units, right-handed axes. Angular quantities say their frame: `_world`, `_body`.
 //! * Operators: `*` geometric, `^` outer, `|` left contraction, `&` meet, `undual(dual a ^ dual b)`. Rust's precedence is
 //!   `*`, `+ -`, `&`, `^`, `|`: use brackets.
+//! * Where `I² = 0` there is no dual, and `a & b` is the regressive product by complements: `c(a & b) = c(a) ^ c(b)` with
+//!   `x ^ c(x) = I` for every basis blade x, so `I & a = a`. Metrics with both have `undual(dual a ^ dual b) = I² (b & a)`.
+//!   Both take their orientation from the declared `pseudoscalar`; without one there is neither.
 //! * Null basis: `no` the origin, `ninf` infinity, `no . ninf = -1`. Point `X = no + x + x²/2 ninf`, so
 //!   `X . Y = -|x - y|²/2`, `X . ninf = -1`.
 //! * `dual(M) = I M` with `I = -e123 (no ^ ninf)`, `I² = -1`; `undual(M) = -I M`. In G(3,0) `I = e123`.

@@ -16,7 +16,7 @@ pub enum Expression {
     Sum(Vec<(Rational, Expression)>),
     /// A bilinear product.
     Product(product::Kind, Box<Expression>, Box<Expression>),
-    /// `undual(dual a ^ dual b)`.
+    /// `undual(dual a ^ dual b)`; where `I^2 = 0`, `uncomplement(complement a ^ complement b)`.
     Meet(Box<Expression>, Box<Expression>),
     /// The reverse: every blade's factors in reversed order.
     Reverse(Box<Expression>),

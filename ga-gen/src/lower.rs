@@ -131,9 +131,7 @@ impl<'a> Lowering<'a> {
             }
             Expression::Meet(a, b) => {
                 let (a, b) = (self.lower(a)?, self.lower(b)?);
-                let (a, b) = (self.dual(&a)?, self.dual(&b)?);
-                let outer = self.product(Kind::Outer, &a, &b);
-                self.undual(&outer)?
+                self.meet(&a, &b)?
             }
             Expression::Reverse(a) => reversed(&self.lower(a)?),
             Expression::Dual(a) => {
@@ -241,6 +239,19 @@ impl<'a> Lowering<'a> {
         let pseudoscalar = self.metric_pseudoscalar()?;
         let signature = &self.spec.signature;
         Some(self.map_blades(a, |blade| pseudoscalar.undual(signature, blade)))
+    }
+
+    /// `undual(dual a ^ dual b)`; where `I^2 = 0`, the same with complements.
+    fn meet(&mut self, a: &Components, b: &Components) -> Option<Components> {
+        let pseudoscalar = self.spec.pseudoscalar?;
+        if !pseudoscalar.square.is_zero() {
+            let (a, b) = (self.dual(a)?, self.dual(b)?);
+            let outer = self.product(Kind::Outer, &a, &b);
+            return self.undual(&outer);
+        }
+        let [a, b] = [a, b].map(|operand| self.map_blades(operand, |blade| pseudoscalar.complement(blade)));
+        let outer = self.product(Kind::Outer, &a, &b);
+        Some(self.map_blades(&outer, |blade| pseudoscalar.uncomplement(blade)))
     }
 
     fn metric_pseudoscalar(&self) -> Option<product::Pseudoscalar> {

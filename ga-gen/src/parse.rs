@@ -4,7 +4,7 @@
 //! pub algebra cga extends super::g3;
 //! basis e1 = 1, e2 = 1, e3 = 1;                    // squares +1, -1 or 0
 //! basis null pair (no, ninf) = -1;                 // no.no = ninf.ninf = 0, no.ninf = -1
-//! pseudoscalar -e123_no_ninf;
+//! pseudoscalar -e123_no_ninf;                      // I, for dual, undual and &; without it there is none of them
 //! type Rotor: unit + versor = [s, e23, e31, e12];  // stored coefficients, fields named by their blades
 //! type Translator: unit + versor = [s = 1, e1_ninf, e2_ninf, e3_ninf];   // with a constant one
 //! type Point = x*e1 + y*e2 + z*e3 + no + (x*x + y*y + z*z)/2*ninf;   // stored, constant and derived

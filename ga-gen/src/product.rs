@@ -1,7 +1,7 @@
 //! The three products and the unary operations on multivectors of the generator, on bare blades: what survives, and
 //! with which factor. Everything that multiplies multivectors in this crate goes through [`blade_product`].
 
-use crate::blade::Blade;
+use crate::blade::{Blade, swaps_are_odd};
 use crate::scalar::Rational;
 use crate::signature::{Signature, Terms};
 
@@ -33,7 +33,7 @@ pub struct Pseudoscalar {
     pub blade: Blade,
     /// The sign.
     pub sign: Rational,
-    /// `I^2`: 0 where the metric is degenerate, and then there is no dual.
+    /// `I^2`: 0 where the metric is degenerate, and then there is no dual, and the meet goes by complements.
     pub square: Rational,
 }
 
@@ -58,6 +58,20 @@ impl Pseudoscalar {
     pub fn undual(self, signature: &Signature, b: Blade) -> Terms {
         let inverse = (self.sign * self.square).recip().unwrap_or(Rational::ZERO);
         scaled(signature.geometric(self.blade, b), inverse)
+    }
+
+    /// The right complement, `b ^ complement(b) = I`: needs no metric, only the order that `I` gives to the basis.
+    #[must_use]
+    pub fn complement(self, b: Blade) -> Terms {
+        let rest = Blade(self.blade.0 & !b.0);
+        vec![(rest, if swaps_are_odd(b, rest) { -self.sign } else { self.sign })]
+    }
+
+    /// The left complement, `uncomplement(b) ^ b = I`: the inverse of [`Self::complement`].
+    #[must_use]
+    pub fn uncomplement(self, b: Blade) -> Terms {
+        let rest = Blade(self.blade.0 & !b.0);
+        vec![(rest, if swaps_are_odd(rest, b) { -self.sign } else { self.sign })]
     }
 }
 

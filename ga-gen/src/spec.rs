@@ -96,6 +96,12 @@ impl Spec {
         known.entry(depth).or_insert_with(|| SplitBasis::new(&self.signature, depth).map(Rc::new)).clone()
     }
 
+    /// Is there a dual: a declared `I` with a square other than 0?
+    #[must_use]
+    pub fn has_dual(&self) -> bool {
+        self.pseudoscalar.is_some_and(|i| !i.square.is_zero())
+    }
+
     /// Does the type hold every blade? Such a type is never chosen for a result by itself.
     #[must_use]
     pub fn is_full(&self, index: usize) -> bool {

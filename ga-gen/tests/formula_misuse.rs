@@ -186,11 +186,16 @@ fn operators() {
             ("(g) fn f(a: V) -> V { a * (1 - 5).<<sqrt>>() }", "the root of -4"),
         ],
     );
+    let degenerate = "pub algebra g; basis e0 = 0, e1 = 1; pseudoscalar e01; type V = [e0, e1]; ";
     refused(
-        "pub algebra g; basis e0 = 0, e1 = 1; pseudoscalar e01; type V = [e0, e1];",
+        degenerate,
+        &[("(g) fn f(a: V) -> V { a.<<dual>>() }", "`g` has no dual: its pseudoscalar squares to 0. `&` is there")],
+    );
+    refused(
+        &degenerate.replace("pseudoscalar e01;", ""),
         &[
-            ("(g) fn f(a: V) -> V { a.<<dual>>() }", "a dual needs a pseudoscalar with a square other than 0"),
-            ("(g) fn f(a: V, b: V) -> V { a <<&>> b }", "the meet needs a pseudoscalar"),
+            ("(g) fn f(a: V) -> V { a.<<undual>>() }", "a dual needs a pseudoscalar, and `g` declares none"),
+            ("(g) fn f(a: V, b: V) -> Scalar { a <<&>> b }", "the meet needs a pseudoscalar, and `g` declares none"),
         ],
     );
     refused(

@@ -301,14 +301,13 @@ impl<M: Metric, T: Scalar> Dynamic<M, T> {
     /// `I a`; `None` where no pseudoscalar was declared or `I² = 0`.
     #[must_use]
     pub fn dual(&self) -> Option<Self> {
-        Self::HAS_DUAL.then(|| self.times_pseudoscalar(M::PSEUDOSCALAR_SIGN < 0))
+        Self::HAS_DUAL.then(|| self.dual_unchecked())
     }
 
     /// `I^-1 a`.
     #[must_use]
     pub fn undual(&self) -> Option<Self> {
-        let square_is_negative = Table::<M>::PRODUCTS.negative[Self::FULL] >> Self::FULL & 1 == 1;
-        Self::HAS_DUAL.then(|| self.times_pseudoscalar((M::PSEUDOSCALAR_SIGN < 0) != square_is_negative))
+        Self::HAS_DUAL.then(|| self.undual_unchecked())
     }
 
     /// `I a` for generated code, which has checked that there is a dual: else this does not compile.
@@ -316,15 +315,24 @@ impl<M: Metric, T: Scalar> Dynamic<M, T> {
     #[must_use]
     pub fn __dual(&self) -> Self {
         const { assert!(Self::HAS_DUAL, "no pseudoscalar with a square other than 0") };
-        self.times_pseudoscalar(M::PSEUDOSCALAR_SIGN < 0)
+        self.dual_unchecked()
     }
 
     /// `I^-1 a` for generated code.
     #[doc(hidden)]
     #[must_use]
     pub fn __undual(&self) -> Self {
-        let dual = self.__dual();
-        if Table::<M>::PRODUCTS.negative[Self::FULL] >> Self::FULL & 1 == 1 { -&dual } else { dual }
+        const { assert!(Self::HAS_DUAL, "no pseudoscalar with a square other than 0") };
+        self.undual_unchecked()
+    }
+
+    fn dual_unchecked(&self) -> Self {
+        self.times_pseudoscalar(M::PSEUDOSCALAR_SIGN < 0)
+    }
+
+    fn undual_unchecked(&self) -> Self {
+        let square_is_negative = Table::<M>::PRODUCTS.negative[Self::FULL] >> Self::FULL & 1 == 1;
+        self.times_pseudoscalar((M::PSEUDOSCALAR_SIGN < 0) != square_is_negative)
     }
 
     /// The product of the orthonormal basis in order, times `self`, times the given sign.
@@ -334,10 +342,48 @@ impl<M: Metric, T: Scalar> Dynamic<M, T> {
         self.map(|blade, value| (Self::FULL ^ blade, if negative >> blade & 1 == 1 { -value } else { value }))
     }
 
-    /// `undual(dual a ^ dual b)`.
+    /// `undual(dual a ^ dual b)`; where `I² = 0` the regressive product of which the declared I is the unit, as in
+    /// generated code. `None` where no pseudoscalar was declared.
     #[must_use]
     pub fn meet(&self, other: &Self) -> Option<Self> {
-        (&self.dual()? ^ &other.dual()?).undual()
+        (M::PSEUDOSCALAR_SIGN != 0).then(|| self.meet_unchecked(other))
+    }
+
+    /// The meet for generated code, which has checked that a pseudoscalar was declared: else this does not compile.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn __meet(&self, other: &Self) -> Self {
+        const { assert!(M::PSEUDOSCALAR_SIGN != 0, "no pseudoscalar") };
+        self.meet_unchecked(other)
+    }
+
+    fn meet_unchecked(&self, other: &Self) -> Self {
+        if Self::HAS_DUAL {
+            (&self.dual_unchecked() ^ &other.dual_unchecked()).undual_unchecked()
+        } else {
+            self.regressive(other)
+        }
+    }
+
+    fn regressive(&self, other: &Self) -> Self {
+        sized!(regressive_of(self, other))
+    }
+
+    /// By the common factor, `(a' ^ f) & (f ^ b') = [a' ^ f ^ b'] f` with `[I] = 1`: no complement is taken.
+    fn regressive_of<const N: usize>(a: &Self, b: &Self) -> Self {
+        let mut sums = Sums::<T, N>::new();
+        let negative = &Table::<M>::PRODUCTS.negative;
+        let odd = |left: usize, right: usize| negative[left] >> right & 1 == 1;
+        for (blade_a, x) in a.terms() {
+            for (blade_b, y) in b.terms().filter(|(blade_b, _)| blade_a | blade_b == Self::FULL) {
+                // The sign of `a' ^ f` against a enters both sides.
+                let (common, rest) = (blade_a & blade_b, blade_b & !blade_a);
+                let negated = odd(common, rest) ^ odd(blade_a, rest) ^ (M::PSEUDOSCALAR_SIGN < 0);
+                let product = x * y;
+                sums.add(common, if negated { -product } else { product });
+            }
+        }
+        sums.finish()
     }
 
     /// `self x ~self`, restricted to the grades of x.
@@ -413,7 +459,7 @@ impl<M: Metric, T: Scalar> Neg for &Dynamic<M, T> {
 
 impl<M: Metric, T: Scalar> BitAnd for &Dynamic<M, T> {
     type Output = Option<Dynamic<M, T>>;
-    /// The meet; `None` where the algebra has no dual.
+    /// The meet; `None` where no pseudoscalar was declared.
     fn bitand(self, other: Self) -> Option<Dynamic<M, T>> {
         self.meet(other)
     }

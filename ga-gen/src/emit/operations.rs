@@ -18,12 +18,19 @@ pub(super) fn method(kind: Kind) -> Ident {
     }
 }
 
-/// The traits and functions that mean this algebra's dual and meet, also on the types of its base.
+/// The traits and functions that mean this algebra's dual and meet, also on the types of its base. Without a declared
+/// pseudoscalar there are none; without a dual, where `I^2 = 0`, there is the meet alone.
 pub(super) fn traits(spec: &Spec) -> TokenStream {
-    let visibility = &spec.visibility;
     if spec.pseudoscalar.is_none() {
         return TokenStream::new();
     }
+    let duals = if spec.has_dual() { dual_traits(spec) } else { TokenStream::new() };
+    let meet = meet_trait(spec);
+    quote!(#duals #meet)
+}
+
+fn dual_traits(spec: &Spec) -> TokenStream {
+    let visibility = &spec.visibility;
     quote! {
         /// `I a`, with this algebra's pseudoscalar.
         #visibility trait Dual {
@@ -39,20 +46,39 @@ pub(super) fn traits(spec: &Spec) -> TokenStream {
             /// `I^-1 a`.
             fn undual(self) -> Self::Output;
         }
-        /// `undual(dual a ^ dual b)`: the intersection of direct blades whose join is the whole space.
-        #visibility trait Meet<B> {
-            /// The smallest type that holds the meet.
-            type Output;
-            /// `undual(dual a ^ dual b)`.
-            fn meet(self, b: B) -> Self::Output;
-        }
         /// `I a`, with this algebra's pseudoscalar.
         #[inline]
         #visibility fn dual<A: Dual>(a: A) -> A::Output { a.dual() }
         /// The inverse of [`dual`].
         #[inline]
         #visibility fn undual<A: Undual>(a: A) -> A::Output { a.undual() }
-        /// `undual(dual a ^ dual b)`, with this algebra's pseudoscalar.
+    }
+}
+
+fn meet_trait(spec: &Spec) -> TokenStream {
+    let visibility = &spec.visibility;
+    let (formula, meaning) = match spec.has_dual() {
+        true => ("`undual(dual a ^ dual b)`", "The intersection of direct blades whose join is the whole space."),
+        false => (
+            "`c⁻¹(c(a) ^ c(b))` with the right complement, `x ^ c(x) = I` for every basis blade x",
+            "The regressive product, for `I² = 0` and so there is no dual. `I & a = a`, and `c(a & b) = c(a) ^ c(b)`. \
+             Of direct blades whose join is the whole space it is the intersection; where vectors are planes or lines, and \
+             `^` intersects, it is the join.",
+        ),
+    };
+    let of_two = format!("{formula}, with this algebra's pseudoscalar.");
+    let heading = format!("{formula}.");
+    quote! {
+        #[doc = #heading]
+        #[doc = ""]
+        #[doc = #meaning]
+        #visibility trait Meet<B> {
+            /// The smallest type that holds the meet.
+            type Output;
+            #[doc = #heading]
+            fn meet(self, b: B) -> Self::Output;
+        }
+        #[doc = #of_two]
         #[inline]
         #visibility fn meet<A: Meet<B>, B>(a: A, b: B) -> A::Output { a.meet(b) }
     }

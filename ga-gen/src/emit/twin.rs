@@ -159,7 +159,7 @@ impl Printer<'_> {
             }
             Expression::Meet(a, b) => {
                 let (a, b) = (self.reference(a), self.reference(b));
-                quote!((&(#a).__dual() ^ &(#b).__dual()).__undual())
+                quote!((#a).__meet(#b))
             }
             Expression::Reverse(a) => self.method(a, &quote!(rev())),
             Expression::Dual(a) => self.method(a, &quote!(__dual())),

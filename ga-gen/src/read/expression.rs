@@ -92,7 +92,7 @@ impl Reader<'_> {
             BinOp::BitXor(_) => Ok(Expression::product(Kind::Outer, a, b)),
             BinOp::BitOr(_) => Ok(Expression::product(Kind::Contraction, a, b)),
             BinOp::BitAnd(token) => {
-                self.needs_dual("the meet", token.span())?;
+                self.needs_pseudoscalar("the meet", token.span())?;
                 Ok(Expression::Meet(Box::new(a), Box::new(b)))
             }
             BinOp::Div(_) => match b.as_number() {
@@ -107,11 +107,22 @@ impl Reader<'_> {
         }
     }
 
-    fn needs_dual(&self, what: &str, span: Span) -> syn::Result<()> {
-        if self.spec.pseudoscalar.is_some_and(|i| !i.square.is_zero()) {
+    fn needs_pseudoscalar(&self, what: &str, span: Span) -> syn::Result<()> {
+        if self.spec.pseudoscalar.is_some() {
             return Ok(());
         }
-        let message = format!("{what} needs a pseudoscalar with a square other than 0; `{}` has none", self.spec.name);
+        let name = &self.spec.name;
+        let message = format!("{what} needs a pseudoscalar, and `{name}` declares none, like `pseudoscalar e12;`");
+        Err(Error::new(span, message))
+    }
+
+    fn needs_dual(&self, span: Span) -> syn::Result<()> {
+        self.needs_pseudoscalar("a dual", span)?;
+        if self.spec.has_dual() {
+            return Ok(());
+        }
+        let name = &self.spec.name;
+        let message = format!("`{name}` has no dual: its pseudoscalar squares to 0. `&` is there, by complements");
         Err(Error::new(span, message))
     }
 
@@ -123,7 +134,7 @@ impl Reader<'_> {
         let receiver = self.expression(&call.receiver)?;
         let arguments: Vec<&Expr> = call.args.iter().map(ungrouped).collect();
         if name == "dual" || name == "undual" {
-            self.needs_dual("a dual", span)?;
+            self.needs_dual(span)?;
         }
         match (name.as_str(), &arguments[..]) {
             ("rev", []) => Ok(Expression::Reverse(Box::new(receiver))),
