@@ -1,6 +1,7 @@
 //! Algebras that a user declares, outside of the library: they compile, and all their operations agree with the dynamic
-//! multivector, exactly. A degenerate metric (2D projective geometry), an indefinite one (spacetime), the smallest
-//! useful one, one whose names are awkward, and one that extends the library's G(3,0) from outside.
+//! multivector, exactly. Those of `examples/algebras`, each in a module of its own here: degenerate metrics, of which one
+//! extends the library's G(3,0), an indefinite one, the smallest useful one, a conformal one. And two that show no user
+//! anything: one whose names are awkward, and a null pair with the product +1.
 #![allow(clippy::unwrap_used, clippy::cast_possible_truncation, reason = "a test may panic")]
 
 #[macro_use]
@@ -9,69 +10,20 @@ mod operations;
 #[path = "support/rational.rs"]
 mod rational;
 
+#[path = "../examples/algebras/cga2.rs"]
+mod cga2;
+#[path = "../examples/algebras/g2.rs"]
+mod g2;
+#[path = "../examples/algebras/pga2.rs"]
+mod pga2;
+#[path = "../examples/algebras/pga3.rs"]
+mod pga3;
+#[path = "../examples/algebras/spacetime.rs"]
+mod spacetime;
+
 use ga_physics::algebra::dynamic::{Dynamic, ToDynamic};
 use operations::{Random, Sample};
 use rational::Rational;
-
-/// The projective plane: lines are vectors, points bivectors.
-mod pga2 {
-    ga_physics::algebra! {
-        pub algebra pga2;
-        basis e0 = 0, e1 = 1, e2 = 1;
-        pseudoscalar e012;
-
-        /// `a x + b y + c = 0` as `a e1 + b e2 + c e0`.
-        type Line = [e0, e1, e2];
-        /// A point of any weight.
-        type Point = [e12, e20, e01];
-        /// A rigid motion of the plane.
-        type Motor: unit + versor = [s, e12, e20, e01];
-        /// A translation.
-        type Translator: unit + versor = [s = 1, e20, e01];
-        /// An even multivector.
-        type Even = [s, e12, e20, e01];
-        /// An odd multivector.
-        type Odd = [e0, e1, e2, e012];
-        /// A multiple of the pseudoscalar, which squares to 0.
-        type Pseudoscalar = [e012];
-        /// A general multivector.
-        type Multivector = [s, e0, e1, e2, e12, e20, e01, e012];
-    }
-
-    /// Where two lines meet.
-    #[ga_physics::formula(self)]
-    pub fn meet_lines(a: Line, b: Line) -> Point {
-        a ^ b
-    }
-}
-
-/// Spacetime, signature (+, -, -, -).
-mod spacetime {
-    ga_physics::algebra! {
-        pub algebra spacetime;
-        basis e0 = 1, e1 = -1, e2 = -1, e3 = -1;
-        pseudoscalar e0123;
-
-        /// An event.
-        type Vector = [e0, e1, e2, e3];
-        /// The electromagnetic field.
-        type Bivector = [e10, e20, e30, e23, e31, e12];
-        /// A Lorentz transformation.
-        type Rotor: unit + versor = [s, e10, e20, e30, e23, e31, e12, e0123];
-        /// An even multivector.
-        type Even = [s, e10, e20, e30, e23, e31, e12, e0123];
-        /// A trivector.
-        type Trivector = [e123, e023, e031, e012];
-        /// An odd multivector.
-        type Odd = [e0, e1, e2, e3, e123, e023, e031, e012];
-        /// A multiple of the pseudoscalar.
-        type Pseudoscalar = [e0123];
-        /// A general multivector.
-        type Multivector = [
-            s, e0, e1, e2, e3, e10, e20, e30, e23, e31, e12, e123, e023, e031, e012, e0123,
-        ];
-    }
-}
 
 /// The plane, with names that Rust and the generator use themselves, and no general multivector.
 mod plane {
@@ -116,24 +68,24 @@ mod line {
     }
 }
 
-/// Space with a plane at infinity: G(3,0,1) on the library's vectors and rotors.
-mod pga3 {
-    ga_physics::algebra! {
-        pub algebra pga3 extends ga_physics::algebra::g3;
-        basis e0 = 0;
-        pseudoscalar e1230;
-
-        type Plane = [e1, e2, e3, e0];
-        type Line = [e23, e31, e12, e10, e20, e30];
-        type Point = [e123, e230, e310, e120];
-        type Translator: unit + versor = [s = 1, e10, e20, e30];
-        type Motor: unit + versor = [s, e23, e31, e12, e10, e20, e30, e1230];
-        type Even = [s, e23, e31, e12, e10, e20, e30, e1230];
-        type Odd = [e1, e2, e3, e0, e123, e230, e310, e120];
-        type Multivector = [
-            s, e1, e2, e3, e0, e23, e31, e12, e10, e20, e30, e123, e230, e310, e120, e1230,
-        ];
-    }
+/// Each formula against its twin over the dynamic multivector, on twenty samples; those for which the twin divides by
+/// zero are passed over by `unless`.
+macro_rules! twins {
+    ($($name:ident $twin:ident($($operand:ident: $ty:ident),*) $(unless $undefined:expr)?;)*) => {$(
+        #[test]
+        fn $name() {
+            let mut random = Random(stringify!($name).bytes().map(u64::from).sum());
+            let mut compared = 0;
+            while compared < 20 {
+                $(let $operand = $ty::sample(&mut random);)*
+                $(if $undefined { continue; })?
+                let expected = algebra::$twin($(&$operand.to_dynamic()),*);
+                let actual = algebra::$name($($operand),*).to_dynamic();
+                assert!(actual == expected, "{:?} give {actual:?}, expected {expected:?}", ($($operand,)*));
+                compared += 1;
+            }
+        }
+    )*};
 }
 
 /// q²/|q|² of an integer complex number: an exactly unit one.
@@ -150,97 +102,18 @@ fn unit_quaternion(random: &mut Random) -> [Rational; 4] {
     [w * w - x * x - y * y - z * z, 2 * w * x, 2 * w * y, 2 * w * z].map(|n| Rational::new(n, norm))
 }
 
-mod projective_plane {
-    use super::*;
-    type Line = pga2::Line<Rational>;
-    type Point = pga2::Point<Rational>;
-    type Motor = pga2::Motor<Rational>;
-    type Translator = pga2::Translator<Rational>;
-    type Even = pga2::Even<Rational>;
-    type Odd = pga2::Odd<Rational>;
-    type Pseudoscalar = pga2::Pseudoscalar<Rational>;
-    type Multivector = pga2::Multivector<Rational>;
-
-    integers!(Line Point Translator Even Odd Pseudoscalar Multivector);
-    impl Sample for Motor {
-        fn sample(random: &mut Random) -> Self {
-            // e0 squares to 0: the ideal part is free.
-            let [s, e12] = unit_complex(random);
-            Self::new(s, e12, random.rational(), random.rational())
-        }
-    }
-    checks!(pga2::Algebra);
-    fn image(versor: &Multi, x: &Multi, _type_name: &str) -> Multi {
-        versor.apply(x)
-    }
-    pga2::__operations!(check);
-
-    #[test]
-    fn every_operation_agrees() {
-        assert!(compare_all() > 100);
-    }
-
-    #[test]
-    fn two_lines_meet_where_they_should() {
-        // x = 2 and y = 3, as x - 2 = 0 and y - 3 = 0; a point is w e12 + x e20 + y e01.
-        let number = |n| Rational::new(n, 1);
-        let (a, b) = (Line::new(number(-2), number(1), number(0)), Line::new(number(-3), number(0), number(1)));
-        let meet = pga2::meet_lines(a, b);
-        assert_eq!([meet.e12, meet.e20, meet.e01], [1, 2, 3].map(number));
-        assert_eq!(meet.to_dynamic(), &a.to_dynamic() ^ &b.to_dynamic());
-    }
-}
-
-mod space_and_time {
-    use super::*;
-    use spacetime as algebra;
-    type Vector = spacetime::Vector<Rational>;
-    type Bivector = spacetime::Bivector<Rational>;
-    type Rotor = spacetime::Rotor<Rational>;
-    type Even = spacetime::Even<Rational>;
-    type Trivector = spacetime::Trivector<Rational>;
-    type Odd = spacetime::Odd<Rational>;
-    type Pseudoscalar = spacetime::Pseudoscalar<Rational>;
-    type Multivector = spacetime::Multivector<Rational>;
-
-    integers!(Vector Bivector Even Trivector Odd Pseudoscalar Multivector);
-    impl Sample for Rotor {
-        /// A boost along one axis after a turn: `(5 + b e10)² / (25 - b²)`, for e10 squares to 1.
-        fn sample(random: &mut Random) -> Self {
-            let b = random.integer();
-            let axis = random.integer().unsigned_abs() as usize % 3;
-            let mut boost = [Rational::new(0, 1); 8];
-            boost[0] = Rational::new(25 + b * b, 25 - b * b);
-            boost[1 + axis] = Rational::new(10 * b, 25 - b * b);
-            let [s, x, y, z] = unit_quaternion(random);
-            let mut turn = [Rational::new(0, 1); 8];
-            (turn[0], turn[4], turn[5], turn[6]) = (s, x, y, z);
-            let product: [Rational; 8] = (Even::from(boost) * Even::from(turn)).into();
-            Self::from(product)
-        }
-    }
-    checks!(spacetime::Algebra);
-    fn image(versor: &Multi, x: &Multi, _type_name: &str) -> Multi {
-        versor.apply(x)
-    }
-    spacetime::__operations!(check);
-
-    #[test]
-    fn every_operation_agrees() {
-        assert!(compare_all() > 150);
-    }
-
-    #[test]
-    fn a_boost_keeps_the_interval() {
-        let mut random = Random(3);
-        for _ in 0..20 {
-            let (rotor, event) = (Rotor::sample(&mut random), Vector::sample(&mut random));
-            let image: Vector = rotor.apply(event);
-            let interval = |v: Vector| v.e0 * v.e0 - v.e1 * v.e1 - v.e2 * v.e2 - v.e3 * v.e3;
-            assert_eq!(interval(image), interval(event));
-        }
-    }
-}
+#[path = "own_algebra/circles.rs"]
+mod circles;
+#[path = "own_algebra/complex_numbers.rs"]
+mod complex_numbers;
+#[path = "own_algebra/projective_plane.rs"]
+mod projective_plane;
+#[path = "own_algebra/projective_space.rs"]
+mod projective_space;
+#[path = "own_algebra/regressive.rs"]
+mod regressive;
+#[path = "own_algebra/space_and_time.rs"]
+mod space_and_time;
 
 mod smallest {
     use super::*;
@@ -306,55 +179,5 @@ mod conformal_line {
         assert_eq!(&a.to_dynamic() * &a.to_dynamic(), Dynamic::from_terms(&[]));
         let [e1, o, i]: [Rational; 3] = line::middle(a, b).into();
         assert_eq!([e1, o, i], [Rational::new(1, 4), Rational::new(1, 1), Rational::new(-85, 16)]);
-    }
-}
-
-mod extended {
-    use super::*;
-    use ga_physics::algebra::g3;
-    type Vector = g3::Vector<Rational>;
-    type Bivector = g3::Bivector<Rational>;
-    type Trivector = g3::Trivector<Rational>;
-    type Rotor = g3::Rotor<Rational>;
-    type Plane = pga3::Plane<Rational>;
-    type Line = pga3::Line<Rational>;
-    type Point = pga3::Point<Rational>;
-    type Translator = pga3::Translator<Rational>;
-    type Motor = pga3::Motor<Rational>;
-    type Even = pga3::Even<Rational>;
-    type Odd = pga3::Odd<Rational>;
-    type Multivector = pga3::Multivector<Rational>;
-
-    integers!(Vector Bivector Trivector Plane Line Point Translator Even Odd Multivector);
-    impl Sample for Rotor {
-        fn sample(random: &mut Random) -> Self {
-            unit_quaternion(random).into()
-        }
-    }
-    impl Sample for Motor {
-        fn sample(random: &mut Random) -> Self {
-            // The product of a shared type and an own one.
-            Translator::sample(random) * Rotor::sample(random)
-        }
-    }
-    checks!(pga3::Algebra);
-    fn image(versor: &Multi, x: &Multi, _type_name: &str) -> Multi {
-        versor.apply(x)
-    }
-    pga3::__operations!(check);
-
-    #[test]
-    fn every_operation_agrees() {
-        assert!(compare_all() > 300);
-    }
-
-    #[test]
-    fn a_rotor_of_the_base_turns_what_the_extension_declares() {
-        let number = |n| Rational::new(n, 1);
-        // A half turn in the plane e12: x = 1 becomes x = -1, with the normal turned as well.
-        let half = g3::Rotor::new(number(0), number(0), number(0), number(-1));
-        let plane = Plane::new(number(1), number(0), number(0), number(-1));
-        let image: Plane = half.apply(plane);
-        assert_eq!([image.e1, image.e2, image.e3, image.e0], [-1, 0, 0, -1].map(number));
     }
 }
