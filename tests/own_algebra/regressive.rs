@@ -19,7 +19,7 @@ fn complement<M: Metric>(x: &Dynamic<M, Rational>) -> Dynamic<M, Rational> {
     let n = dimension::<M>();
     let unit = blade::<M>((1 << n) - 1, M::PSEUDOSCALAR_SIGN.into());
     let candidates = (0..1 << n).flat_map(|bits| [1, -1].map(|sign| blade::<M>(bits, sign)));
-    candidates.into_iter().find(|c| &(x ^ c) == &unit).unwrap()
+    candidates.into_iter().find(|c| (x ^ c) == unit).unwrap()
 }
 
 /// The r with `c(r) = c(a) ^ c(b)`, or nothing where that is 0.
