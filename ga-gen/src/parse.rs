@@ -187,7 +187,11 @@ fn parse_square(input: ParseStream) -> syn::Result<(i8, Span)> {
 impl Parse for Basis {
     fn parse(input: ParseStream) -> syn::Result<Self> {
         if input.parse::<Option<keyword::null>>()?.is_none() {
-            let name = input.parse()?;
+            let name: Ident = input.parse()?;
+            if !input.peek(Token![=]) {
+                let message = format!("what does `{name}` square to? Write `{name} = 1`, or -1, or 0");
+                return Err(syn::Error::new(name.span(), message));
+            }
             input.parse::<Token![=]>()?;
             return Ok(Self::Vector(name, parse_square(input)?.0));
         }

@@ -163,6 +163,8 @@ fn add_basis(signature: &mut Signature, basis: &[Basis]) -> syn::Result<()> {
 pub fn parse_blade(signature: &Signature, name: &Ident) -> syn::Result<(Blade, bool)> {
     signature.parse(&name.to_string()).ok_or_else(|| {
         let known = signature.names().join(", ");
-        Error::new(name.span(), format!("`{name}` is no basis blade; the basis vectors are {known}, blades are named like e12 or e1_ninf, and s is the scalar"))
+        let all = signature.name(Blade((1 << signature.dimension()) - 1));
+        let message = format!("`{name}` is no basis blade; the basis vectors are {known}, all of them together are named like {all}, and s is the scalar");
+        Error::new(name.span(), message)
     })
 }

@@ -60,6 +60,13 @@ fn blades() {
             ("type W = <<f(x)>>;", "a type is a sum like"),
         ],
     );
+    refused(
+        "pub algebra a; ",
+        &[
+            ("basis p1 = 1, p2 = 1; pseudoscalar <<p12>>;", "all of them together are named like p1_p2"),
+            ("basis e1 = 1, <<e2>>;", "what does `e2` square to? Write `e2 = 1`"),
+        ],
+    );
 }
 
 #[test]
