@@ -12,7 +12,7 @@ use proc_macro2::{Span, TokenStream};
 use syn::{Ident, Path};
 
 /// A formula over a given algebra.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Formula {
     /// As written.
     pub source: Source,
@@ -29,7 +29,7 @@ pub struct Formula {
 }
 
 /// One step.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Step {
     /// What to call it.
     pub name: String,
@@ -42,7 +42,7 @@ pub struct Step {
 }
 
 /// What a step computes.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub enum Operation {
     /// An expression.
     Value(Expression),

@@ -36,7 +36,7 @@ pub struct Lowered {
 }
 
 /// A compiled formula.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Compiled {
     /// As read.
     pub formula: Formula,

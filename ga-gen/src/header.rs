@@ -25,7 +25,7 @@ pub enum Frame {
 }
 
 /// The options of the attribute.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Options {
     /// The module that holds the algebra.
     pub path: Path,
@@ -38,7 +38,7 @@ pub struct Options {
 }
 
 /// What stands before the body.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Header {
     /// Docs and other attributes.
     pub attributes: Vec<Attribute>,
@@ -55,7 +55,7 @@ pub struct Header {
 }
 
 /// A formula as written: options, head and body, checked for what is no formula, whatever the algebra.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Source {
     /// The options of the attribute.
     pub options: Options,

@@ -77,7 +77,8 @@ pub fn operations(spec: &Spec) -> Vec<Operation> {
                 }
                 continue;
             }
-            // A versor in compact storage multiplies versors and applies to all; for the rest it is converted first.
+            // A versor in compact storage multiplies versors and applies to what is none; for the rest it is converted
+            // first, and the image of a versor is the product `v w ~v`.
             let compact = ty.is_compact() || spec.types[b].is_compact();
             if !compact {
                 result.push(Operation::Meet(a, b));
@@ -89,7 +90,7 @@ pub fn operations(spec: &Spec) -> Vec<Operation> {
                 } else if ty.versor && spec.types[b].versor {
                     result.push(Operation::Product(Kind::Geometric, a, b));
                 }
-                if ty.versor {
+                if ty.versor && !(compact && spec.types[b].versor) {
                     result.push(Operation::Apply(a, b));
                 }
                 if a != b && spec.types[b].is_linear() {

@@ -32,8 +32,10 @@ pub mod formula;
 pub mod frame;
 pub mod header;
 pub mod infer;
+#[cfg(feature = "inspect")]
 pub mod inspect;
 pub mod item;
+#[cfg(feature = "inspect")]
 pub mod ledger;
 mod literal;
 pub mod lower;

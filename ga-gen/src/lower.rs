@@ -41,6 +41,8 @@ pub struct Lowering<'a> {
     /// The components of the two factors of each parameter of a factored type.
     pub factors: Vec<Option<[Components; 2]>>,
     schedule: Schedule,
+    /// Is a value of a type that is stored split among the operands?
+    pub(crate) stored_split: bool,
     plan: Plan,
     products: usize,
 }
@@ -50,7 +52,7 @@ impl<'a> Lowering<'a> {
     #[must_use]
     pub fn new(spec: &'a Spec, plan: Plan, schedule: Schedule) -> Self {
         let (builder, parameters, factors) = (Builder::default(), vec![], vec![]);
-        Self { spec, builder, parameters, factors, schedule, plan, products: 0 }
+        Self { spec, builder, parameters, factors, schedule, stored_split: false, plan, products: 0 }
     }
 
     /// The graph, and the choices that were made.
@@ -106,7 +108,11 @@ impl<'a> Lowering<'a> {
 
     /// The components of a type with given fields.
     pub fn of_type(&mut self, ty: &Type, fields: &[Scaled], hint: &str) -> Components {
+        self.stored_split |= ty.is_compact();
         let components = ty.coefficients.iter().map(|(blade, polynomial)| {
+            if let Some((factor, field)) = polynomial.as_stored() {
+                return (*blade, fields[field].scaled(factor));
+            }
             let products: Vec<_> =
                 polynomial.terms().map(|(f, c)| (c, f.iter().map(|i| fields[*i]).collect())).collect();
             (*blade, self.builder.sum(&products, &format!("{hint}_{}", self.spec.signature.name(*blade))))

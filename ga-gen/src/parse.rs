@@ -25,7 +25,7 @@ mod keyword {
 }
 
 /// One `algebra!` invocation.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Source {
     /// Visibility of the generated types.
     pub visibility: Visibility,
@@ -51,7 +51,7 @@ pub enum Basis {
 }
 
 /// `type NAME: FACTS = BODY;`
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct TypeSource {
     /// Doc comments.
     pub docs: Vec<Attribute>,
@@ -64,7 +64,7 @@ pub struct TypeSource {
 }
 
 /// The coefficients of a type.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub enum TypeBody {
     /// `[s = 1, e23, e31, e12]`: stored coefficients, or constant ones.
     Stored(Vec<(Ident, Option<syn::Lit>)>),

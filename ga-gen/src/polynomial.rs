@@ -60,10 +60,8 @@ impl Polynomial {
     /// `(c, field)` if it is `c * field`.
     #[must_use]
     pub fn as_stored(&self) -> Option<(Rational, usize)> {
-        match self.terms().collect::<Vec<_>>()[..] {
-            [([field], value)] => Some((value, *field)),
-            _ => None,
-        }
+        let (fields, value) = self.0.first_key_value().filter(|_| self.0.len() == 1)?;
+        if let [field] = fields[..] { Some((*value, field)) } else { None }
     }
 
     /// `c`, if it is `c * field + (terms without the field)`.

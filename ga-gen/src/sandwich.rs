@@ -37,12 +37,19 @@ impl Sandwich {
 /// Expanding beyond this many triple products is refused.
 const EXPANSION_CAP: usize = 128;
 
+/// The most blades of a versor, a translator or a rotor of space, for which two products may be the cheapest way.
+const SHORT_VERSOR: usize = 4;
+
 impl Lowering<'_> {
     /// `v x ~v`, restricted to the grades of x, in the way that the plan says.
     pub fn sandwich(&mut self, v: &Components, x: &Components) -> Components {
         let versor = values::of(&self.builder, v);
         let isometry = values::is_isometry(&self.spec.signature, &versor);
-        let mut ways = vec![Sandwich::Plain];
+        let mut ways = Vec::new();
+        // In the commutator the scalar part and half the grades fall out: of a longer versor two products cost more.
+        if !isometry || v.len() <= SHORT_VERSOR {
+            ways.push(Sandwich::Plain);
+        }
         if v.len() * v.len() * x.len() <= EXPANSION_CAP {
             ways.push(Sandwich::Expanded);
         }

@@ -97,6 +97,9 @@ impl Rational {
         if self.denominator == 0 || other.denominator == 0 {
             return Self::OVERFLOW;
         }
+        if self.abs() == Self::ONE && other.denominator == 1 {
+            return Self::ONE;
+        }
         let numerator = gcd(self.numerator, other.numerator);
         let shared = gcd(self.denominator, other.denominator);
         let denominator = (self.denominator / shared).checked_mul(other.denominator);
@@ -113,6 +116,12 @@ impl From<i32> for Rational {
 impl Add for Rational {
     type Output = Self;
     fn add(self, rhs: Self) -> Self {
+        // Nearly all coefficients are small integers: no common divisor is looked for.
+        if let (1, 1, Some(numerator)) = (self.denominator, rhs.denominator, self.numerator.checked_add(rhs.numerator))
+            && numerator != i128::MIN
+        {
+            return Self { numerator, denominator: 1 };
+        }
         let left = self.numerator.checked_mul(rhs.denominator);
         let right = rhs.numerator.checked_mul(self.denominator);
         let numerator = left.zip(right).and_then(|(left, right)| left.checked_add(right));
@@ -130,6 +139,11 @@ impl Sub for Rational {
 impl Mul for Rational {
     type Output = Self;
     fn mul(self, rhs: Self) -> Self {
+        if let (1, 1, Some(numerator)) = (self.denominator, rhs.denominator, self.numerator.checked_mul(rhs.numerator))
+            && numerator != i128::MIN
+        {
+            return Self { numerator, denominator: 1 };
+        }
         let numerator = self.numerator.checked_mul(rhs.numerator);
         Self::checked(numerator, self.denominator.checked_mul(rhs.denominator))
     }

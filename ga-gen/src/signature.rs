@@ -22,6 +22,8 @@ pub struct Signature {
     kinds: Vec<Kind>,
     /// All products of basis blades, made when the first is asked for: an algebra asks for each some thousand times.
     table: OnceCell<Vec<Terms>>,
+    /// The names of all blades, made when the first is asked for.
+    blade_names: OnceCell<Vec<String>>,
 }
 
 /// A sum of at most two basis blades: a product within one null pair has two terms.
@@ -36,6 +38,7 @@ impl Signature {
         self.names.push(name);
         self.kinds.push(Kind::Square(square));
         self.table.take();
+        self.blade_names.take();
     }
 
     /// Adds a null pair `(o, i)` with `o . i = inner`.
@@ -43,6 +46,7 @@ impl Signature {
         self.names.extend([first, second]);
         self.kinds.extend([Kind::PairFirst(inner), Kind::PairSecond]);
         self.table.take();
+        self.blade_names.take();
     }
 
     /// The number of basis vectors.
@@ -74,6 +78,11 @@ impl Signature {
     /// The name of a blade: `s`, `e23`, `e1_ninf`, `e123_no_ninf`.
     #[must_use]
     pub fn name(&self, blade: Blade) -> String {
+        let names = self.blade_names.get_or_init(|| (0..1 << self.dimension()).map(|b| self.spell(Blade(b))).collect());
+        names[blade.0 as usize].clone()
+    }
+
+    fn spell(&self, blade: Blade) -> String {
         if blade == Blade::SCALAR {
             return "s".into();
         }

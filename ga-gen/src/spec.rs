@@ -14,7 +14,7 @@ use std::rc::Rc;
 use syn::{Error, Ident, Visibility};
 
 /// A checked algebra.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Spec {
     /// Its name.
     pub name: Ident,

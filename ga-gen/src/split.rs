@@ -181,7 +181,7 @@ impl Lowering<'_> {
 
     /// Are the coordinates of both operands known already, and do they differ from the coefficients at all?
     pub(crate) fn is_stored_split(&mut self, a: &Components, b: &Components) -> bool {
-        let Some(basis) = self.spec.split_basis(Depth::Pair) else { return false };
+        let Some(basis) = self.spec.split_basis(Depth::Pair).filter(|_| self.stored_split) else { return false };
         let mixes = |row: &Vec<(usize, Rational)>, x: &Components| {
             row.iter().filter(|(i, _)| x.keys().any(|blade| blade.0 as usize == *i)).count() > 1
         };

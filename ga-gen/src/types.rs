@@ -12,7 +12,7 @@ use syn::spanned::Spanned;
 use syn::{Attribute, BinOp, Error, Expr, Ident, Lit, UnOp};
 
 /// A named type.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Type {
     /// The name, with the user's span.
     pub name: Ident,

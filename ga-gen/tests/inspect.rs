@@ -48,13 +48,13 @@ fn the_algebra_of_a_formula_is_found_beside_it() {
 #[test]
 fn what_is_missing_or_wrong_is_named() {
     let alone = folder("alone", &[("area.rs", FORMULA)]).join("area.rs");
-    let error = load(&alone, None).unwrap_err().to_string();
+    let error = load(&alone, None).err().unwrap().to_string();
     assert!(error.starts_with("the algebra `plane` is in none of") && error.contains("--algebra FILE"), "{error}");
     let empty = folder("empty", &[("none.rs", "fn main() {}")]).join("none.rs");
     assert!(matches!(load(&empty, None), Err(InspectError::Nothing(_))));
     let text = format!("{PLANE}\n#[formula(plane)]\nfn area(a: Vector) -> Area {{ a }}");
     let wrong = folder("wrong", &[("area.rs", &text)]).join("area.rs");
-    let error = load(&wrong, None).unwrap_err().to_string();
+    let error = load(&wrong, None).err().unwrap().to_string();
     assert!(error.contains("area.rs:3:23: `Area` does not hold the result"), "{error}");
     let circle = "algebra! { algebra a extends b; basis e1 = 1; } algebra! { algebra b extends a; basis e2 = 1; }";
     let circle = folder("circle", &[("both.rs", circle)]).join("both.rs");

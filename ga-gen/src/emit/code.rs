@@ -1,14 +1,11 @@
 //! Tokens of straight-line scalar code.
 
-use crate::program::{Call, Product, Program, Step, Value};
+use super::arithmetic::{constant, path, signed_product, sum};
+use crate::program::{Call, Program, Step, Value};
 use crate::scalar::Rational;
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
-
-/// Sums of up to this many terms are a chain; longer ones a balanced tree, which has the shorter dependency chain and
-/// the smaller error bound. A tree holds more numbers at a time: for the sums of eight terms of a product of motors, in a
-/// loop over a slice, it took 204 instructions for two items where the chain took 195, on 16 registers.
-const LONGEST_CHAIN: usize = 8;
+use std::collections::BTreeSet;
 
 /// Results whose longest sum has more terms than this are computed longest first.
 const SHORT_SUM: usize = 4;
@@ -48,20 +45,21 @@ pub(super) struct Results {
 /// one of poses 7 of 135.
 pub(super) fn results(program: &Program) -> Results {
     let length = |output: &Step| if let Value::Sum(products) = &output.value { products.len() } else { 1 };
-    let is_step =
-        |factor: &String| program.steps.iter().any(|step| Some(step.name.as_str()) == factor.split('.').next());
+    let steps: BTreeSet<&str> = program.steps.iter().map(|step| step.name.as_str()).collect();
+    let is_step = |factor: &String| steps.contains(root(factor));
     let direct = |output: &Step| match &output.value {
         Value::Sum(products) => products.len() > 1 && !products.iter().flat_map(|p| &p.factors).any(is_step),
         _ => false,
     };
     let name = |output: &Step| format!("result_{}", output.name.replace('.', "_"));
-    let taken = |name: &String| program.steps.iter().any(|step| step.name == *name) || reads(program, name);
+    let read = roots(program);
+    let taken = |name: String| steps.contains(name.as_str()) || read.contains(name.as_str());
     let mut result = Results { before: TokenStream::new(), after: TokenStream::new(), values: vec![] };
     let longest = program.outputs.iter().map(length).max().unwrap_or_default();
     let differ = program.outputs.iter().any(|output| length(output) != longest);
     let direct_first = !program.steps.is_empty() && differ && longest > 1;
     let sorted = longest > SHORT_SUM && differ;
-    if !(direct_first || sorted) || program.outputs.iter().map(name).any(|name| taken(&name)) {
+    if !(direct_first || sorted) || program.outputs.iter().map(name).any(taken) {
         result.values = program.outputs.iter().map(|output| value(&output.value)).collect();
         return result;
     }
@@ -114,72 +112,6 @@ pub(super) fn value(value: &Value) -> TokenStream {
     }
 }
 
-/// A positive product stands first, unless all are negative.
-fn sum(products: &[Product]) -> TokenStream {
-    if products.len() > LONGEST_CHAIN {
-        let (left, right) = products.split_at(products.len().div_ceil(2));
-        if right[0].coefficient.is_negative() {
-            let right: Vec<Product> = right.iter().map(negated).collect();
-            let (left, right) = (sum(left), sum(&right));
-            return quote!((#left) - (#right));
-        }
-        let (left, right) = (sum(left), sum(right));
-        return quote!((#left) + (#right));
-    }
-    let mut tokens = TokenStream::new();
-    for (index, term) in products.iter().enumerate() {
-        let negative = term.coefficient.is_negative();
-        if index == 0 {
-            tokens.extend(signed_product(term));
-        } else {
-            let product = product(term.coefficient.abs(), &term.factors);
-            tokens.extend(if negative { quote!(- #product) } else { quote!(+ #product) });
-        }
-    }
-    tokens
-}
-
-fn negated(product: &Product) -> Product {
-    Product { coefficient: -product.coefficient, factors: product.factors.clone() }
-}
-
-fn signed_product(term: &Product) -> TokenStream {
-    if term.coefficient == -Rational::ONE && !term.factors.is_empty() {
-        let product = product(Rational::ONE, &term.factors);
-        return if term.factors.len() == 1 { quote!(-#product) } else { quote!(-(#product)) };
-    }
-    product(term.coefficient, &term.factors)
-}
-
-fn product(coefficient: Rational, factors: &[String]) -> TokenStream {
-    let mut parts: Vec<TokenStream> = Vec::new();
-    if coefficient != Rational::ONE || factors.is_empty() {
-        parts.push(constant(coefficient));
-    }
-    parts.extend(factors.iter().map(|factor| path(factor)));
-    let mut parts = parts.into_iter();
-    let first = parts.next();
-    quote!(#first #(* #parts)*)
-}
-
-/// `T::ratio(n, d)`, which folds to a literal for floats.
-fn constant(value: Rational) -> TokenStream {
-    let part = |n: i128| Literal::i32_unsuffixed(i32::try_from(n).unwrap_or(i32::MAX));
-    let (magnitude, denominator) = (part(value.numerator().abs()), part(value.denominator()));
-    let numerator = if value.is_negative() { quote!(-#magnitude) } else { quote!(#magnitude) };
-    quote!(T::ratio(#numerator, #denominator))
-}
-
-/// `a.e1` or a local name.
-fn path(name: &str) -> TokenStream {
-    let mut parts = name.split('.').map(|part| match part.parse::<usize>() {
-        Ok(index) => Literal::usize_unsuffixed(index).into_token_stream(),
-        Err(_) => identifier(part).into_token_stream(),
-    });
-    let first = parts.next();
-    quote!(#first #(.#parts)*)
-}
-
 /// An identifier from a generated name.
 pub(super) fn identifier(name: &str) -> Ident {
     match name.strip_prefix("r#") {
@@ -200,13 +132,31 @@ const KEYWORDS: [&str; 53] = [
 
 /// Does the program read a parameter?
 pub(super) fn reads(program: &Program, parameter: &str) -> bool {
-    let reads = |name: &String| name.split('.').next() == Some(parameter);
-    program.values().into_iter().any(|value| match value {
-        Value::Quotient(numerator, name) => reads(name) || numerator.factors.iter().any(reads),
-        Value::Sqrt(name) => reads(name),
-        Value::Sum(products) => products.iter().any(|product| product.factors.iter().any(reads)),
-        Value::Call(_) => false,
-    })
+    roots(program).contains(parameter)
+}
+
+/// `a` of `a.e1`.
+fn root(name: &str) -> &str {
+    name.split('.').next().unwrap_or(name)
+}
+
+/// The names of all that a program reads, steps included.
+fn roots(program: &Program) -> BTreeSet<&str> {
+    let mut found = BTreeSet::new();
+    for value in program.values() {
+        match value {
+            Value::Quotient(numerator, name) => {
+                found.insert(root(name));
+                found.extend(numerator.factors.iter().map(|factor| root(factor)));
+            }
+            Value::Sqrt(name) => {
+                found.insert(root(name));
+            }
+            Value::Sum(products) => found.extend(products.iter().flat_map(|p| &p.factors).map(|factor| root(factor))),
+            Value::Call(_) => {}
+        }
+    }
+    found
 }
 
 #[cfg(test)]

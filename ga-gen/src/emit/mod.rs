@@ -4,6 +4,7 @@
 //! Generated code names the library as `::ga_physics`, is generic over `T: Scalar`, and contains no branch, no loop and
 //! no call but arithmetic.
 
+mod arithmetic;
 mod code;
 mod formula;
 mod interop;

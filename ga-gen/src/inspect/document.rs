@@ -31,14 +31,14 @@ impl Format {
 }
 
 /// Blocks in order.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Document<'a> {
     /// The blocks.
     pub blocks: Vec<Block<'a>>,
 }
 
 /// A part of a document.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub enum Block<'a> {
     /// The name of what is shown.
     Title(String),

@@ -30,7 +30,6 @@ const MOST_NAMES: usize = 6;
 const LEAST_LIKENESS: f64 = 0.8;
 
 /// What a source file holds.
-#[derive(Debug)]
 pub struct Inspected {
     /// The last algebra of the file.
     pub algebra: Option<Spec>,

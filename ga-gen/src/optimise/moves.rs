@@ -9,6 +9,9 @@ use crate::scalar::Rational;
 
 /// Sweeps over all nodes until none moves; each move lowers the count, so this ends.
 pub(super) fn move_scales(graph: &mut Graph) {
+    if whole_cost(graph) == 0 {
+        return;
+    }
     let users = users(graph);
     // Every node is tried in a sweep, also after one has moved.
     while (0..users.len()).filter(|id| try_node(graph, *id, &users[*id])).count() > 0 {}
@@ -17,6 +20,10 @@ pub(super) fn move_scales(graph: &mut Graph) {
 /// Turns nodes round so that results add them: where neighbouring results read alike, compilers compute them side by side.
 /// A node turns alone, or together with one that it is made of; never at a cost.
 pub(super) fn align_signs(graph: &mut Graph) {
+    let is_negative = |term: &Term| term.coefficient.is_negative();
+    if !graph.outputs.iter().any(|(_, terms)| terms.iter().any(|term| is_negative(term) && term.factors.len() == 1)) {
+        return;
+    }
     let users = users(graph);
     let minus = -Rational::ONE;
     for index in 0..graph.outputs.len() {
