@@ -18,7 +18,8 @@ use syn::{Error, Expr, Ident, Pat, Stmt};
 /// # Errors
 /// A sentence on the token at fault.
 pub fn read(spec: &Spec, source: &Source) -> syn::Result<Formula> {
-    let mut reader = Reader { spec, scope: vec![], types: vec![], steps: vec![], unused: vec![], fixed: vec![] };
+    let mut reader =
+        Reader { spec, scope: vec![], types: vec![], steps: vec![], unused: vec![], fixed: vec![], depth: 0 };
     for (name, ty) in &source.header.parameters {
         let ty = reader.declared(ty)?;
         reader.types.push(Some(ty));
@@ -49,6 +50,8 @@ struct Reader<'a> {
     steps: Vec<Step>,
     unused: Vec<Ident>,
     fixed: Vec<Fixed>,
+    /// How many expressions the one that is read stands in.
+    depth: usize,
 }
 
 impl Reader<'_> {

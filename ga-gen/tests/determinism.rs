@@ -3,6 +3,8 @@
 
 mod support;
 
+use ga_gen::formula;
+use ga_gen::header;
 use ga_gen::inspect;
 use ga_gen::parse::Source;
 use ga_gen::program::Program;
@@ -53,4 +55,35 @@ fn programs_do_not_depend_on_the_order_of_declaration() {
     let half = turned.types.len() / 2;
     turned.types.rotate_left(half);
     compare(&own, &programs(Some(&g3), &turned), "cga, its second half first");
+}
+
+/// With sandwiches, products in the split basis, words of factors, quotients, roots, and frames to choose from.
+const FORMULAS: [&str; 5] = [
+    "fn f(a: Point, b: Point, c: Point, d: Point) -> Sphere { (a ^ b ^ c ^ d).dual().normalised() }",
+    "fn f(v: ConformalRotor, w: Motor, x: Point) -> Point { (v * w).apply(x).normalised() }",
+    "fn f(a: Pose, b: Pose, x: Point) -> (Pose, Point) { let c: Pose = a * b.rev(); (c, c.apply(x)) }",
+    "fn f(a: Circle, x: Point) -> Round { (a * x * a).grade(1) }",
+    "fn f(a: Sphere, b: Sphere) -> Scalar { (a | b) / (a.rho_sq * b.rho_sq).sqrt() }",
+];
+
+fn formula_programs(spec: &Spec) -> Vec<(Program, String)> {
+    let compile = |text: &&str| {
+        let source = header::Source::new(quote!(cga), text.parse().unwrap()).unwrap();
+        let compiled = formula::compile(spec, &ga_gen::read::read(spec, &source).unwrap()).unwrap();
+        let code = ga_gen::emit::formula_function(spec, &compiled).to_string();
+        (compiled.program, code)
+    };
+    FORMULAS.iter().map(compile).collect()
+}
+
+#[test]
+fn formulas_depend_neither_on_the_run_nor_on_the_order_of_declaration() {
+    let (g3, cga) = (source_of("g3"), source_of("cga"));
+    let spec = |base: &Source, own: &Source| Spec::new(own, Some(&Spec::new(base, None).unwrap())).unwrap();
+    let first = formula_programs(&spec(&g3, &cga));
+    assert!(first == formula_programs(&spec(&g3, &cga)), "the same again");
+    let mut backwards = (g3, cga);
+    backwards.0.types.reverse();
+    backwards.1.types.reverse();
+    assert!(first == formula_programs(&spec(&backwards.0, &backwards.1)), "with the types declared backwards");
 }

@@ -244,6 +244,15 @@ fn frames() {
             ("(g, local = a) fn f(a: P) -> W { ninf * a.<<x>> }", "`x` is tied to the origin"),
             ("(g, local = a) fn f(a: P, <<v>>: V) -> W { a + v }", "`v` is tied to the origin"),
             ("(g, relative = a) fn f(a: P, b: P) -> W { b + 2 * <<e1>> + no }", "`e1`, `no` are tied to the origin"),
+            // Deep within, and named once though it stands twice.
+            (
+                "(g, local = a) fn f(a: P, b: P) -> Scalar { (a | (b ^ <<no>>)) | (a + no) }",
+                "`no` is tied to the origin",
+            ),
+            ("(g, local = a) fn f(a: P, b: P) -> W { let c = (a | b) * <<e1>>; a + c }", "`e1` is tied to the origin"),
+            // A free vector is none within a product with a point.
+            ("(g, local = a) fn f(a: P, b: P, <<v>>: V) -> Scalar { (a | v) + (a | b) }", "`v` is tied to the origin"),
+            ("(g, relative = b) fn f(a: P, b: P) -> Scalar { (a | b) * b.<<x>> }", "`x` is tied to the origin"),
         ],
     );
 }

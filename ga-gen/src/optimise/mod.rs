@@ -213,6 +213,7 @@ fn schedule(graph: &Graph) -> Program {
     let taken = parameters.collect();
     let mut scheduler = Scheduler { graph, names: BTreeMap::new(), taken, program: Program::default() };
     for (name, terms) in &graph.outputs {
+        scheduler.name_all(terms.iter().flat_map(|term| term.factors.iter().copied()));
         let value = Value::Sum(scheduler.products(terms));
         scheduler.program.outputs.push(Step { name: name.clone(), value });
     }
@@ -227,6 +228,24 @@ struct Scheduler<'a> {
 }
 
 impl Scheduler<'_> {
+    /// Names the operands of some nodes before them, in the order in which [`Self::name`] would. It calls itself for each
+    /// operand without a name, and a long chain of steps would end the stack.
+    fn name_all(&mut self, roots: impl DoubleEndedIterator<Item = NodeId>) {
+        let mut pending: Vec<(NodeId, bool)> = roots.rev().map(|id| (id, false)).collect();
+        while let Some((id, ready)) = pending.pop() {
+            if self.names.contains_key(&id) {
+                continue;
+            }
+            if ready {
+                self.name(id);
+                continue;
+            }
+            pending.push((id, true));
+            let work = &self.graph.nodes[id];
+            pending.extend(operands(&work.node).into_iter().rev().map(|operand| (operand, false)));
+        }
+    }
+
     fn name(&mut self, id: NodeId) -> String {
         if let Some(name) = self.names.get(&id) {
             return name.clone();

@@ -17,8 +17,23 @@ use syn::{BinOp, Error, Expr, Ident, Member, UnOp};
 /// The methods of a multivector in a formula.
 const METHODS: [&str; 8] = ["rev", "dual", "undual", "grade", "apply", "normalised", "norm_sq", "sqrt"];
 
+/// Deeper expressions are refused: they are read, lowered and dropped by functions that call themselves, and the stack ends
+/// at some thousand of them in a build without optimisation. `a + b + c` stands two deep.
+const DEEPEST: usize = 160;
+
 impl Reader<'_> {
     pub(super) fn expression(&mut self, expression: &Expr) -> syn::Result<Expression> {
+        if self.depth == DEEPEST {
+            let message = format!("this expression is more than {DEEPEST} deep: name a part of it with `let`");
+            return Err(Error::new_spanned(expression, message));
+        }
+        self.depth += 1;
+        let result = self.expression_within(expression);
+        self.depth -= 1;
+        result
+    }
+
+    fn expression_within(&mut self, expression: &Expr) -> syn::Result<Expression> {
         match expression {
             Expr::Group(inner) => self.expression(&inner.expr),
             Expr::Paren(inner) => self.expression(&inner.expr),
