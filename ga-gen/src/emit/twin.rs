@@ -4,9 +4,10 @@
 //! of measurements. It works in the orthonormal basis, where a null pair `(o, i)` with `o . i = c` stands for `p, m` with
 //! `o = c (p - m)/2`, `i = p + m`.
 
+use super::arithmetic;
 use super::code::identifier;
 use super::formula::type_tokens;
-use super::types::{self, orthonormal, rational};
+use super::types::{self, orthonormal};
 use crate::blade::{Blade, swaps_are_odd};
 use crate::body::{Component, Formula, Operation};
 use crate::expression::Expression;
@@ -142,7 +143,7 @@ impl Printer<'_> {
                     }
                 }
                 let entries = sums.into_iter().filter(|(_, value)| !value.is_zero()).map(|(blade, value)| {
-                    let (blade, value) = (Literal::u32_unsuffixed(blade.0), rational(value));
+                    let (blade, value) = (Literal::u32_unsuffixed(blade.0), arithmetic::constant(value));
                     quote!((#blade, #value))
                 });
                 let multivector = self.multivector;
@@ -193,7 +194,7 @@ impl Printer<'_> {
                 one if one == Rational::ONE => self.owned(part),
                 minus if minus == -Rational::ONE => quote!(-(#reference)),
                 other => {
-                    let factor = rational(other);
+                    let factor = arithmetic::constant(other);
                     quote!((#reference).scaled(#factor))
                 }
             };
@@ -227,7 +228,7 @@ impl Printer<'_> {
         let value = self.owned(value);
         let number = match self.compiled.signs[index] {
             Some(sign) => {
-                let sign = rational(sign);
+                let sign = arithmetic::constant(sign);
                 quote!(::ga_physics::algebra::Scalar::sqrt(#sign * (&value * &value.rev()).coefficient(0)))
             }
             None => {
@@ -235,7 +236,7 @@ impl Printer<'_> {
                 let weight = if let Some(Output::Type(ty)) = ty { self.spec.types[ty].weight() } else { None };
                 let (blade, constant) = weight.unwrap_or((Blade::SCALAR, Rational::ONE));
                 let weight = coefficient(&self.spec.signature, &quote!(value), blade);
-                let inverse = rational(constant.recip().unwrap_or(Rational::ONE));
+                let inverse = arithmetic::constant(constant.recip().unwrap_or(Rational::ONE));
                 if constant == Rational::ONE { weight } else { quote!((#weight) * #inverse) }
             }
         };
@@ -282,10 +283,10 @@ impl Printer<'_> {
         for (field, readout) in ty.readouts.iter().enumerate() {
             let Some(readout) = readout else { continue };
             let terms = readout.terms.iter().map(|(blade, factor)| {
-                let (read, magnitude) = (coefficient(signature, value, *blade), rational(*factor));
+                let (read, magnitude) = (coefficient(signature, value, *blade), arithmetic::constant(*factor));
                 if *factor == Rational::ONE { read } else { quote!(#magnitude * #read) }
             });
-            let constant = (!readout.constant.is_zero()).then(|| rational(readout.constant));
+            let constant = (!readout.constant.is_zero()).then(|| arithmetic::constant(readout.constant));
             let terms = terms.chain(constant);
             fields[field] = Some(quote!((#(#terms)+*)));
         }
@@ -296,10 +297,11 @@ impl Printer<'_> {
             let Some(inverse) = polynomial.linear_in(field).and_then(Rational::recip) else { continue };
             let read = coefficient(signature, value, *blade);
             let known = polynomial.terms().filter(|(term, _)| !term.contains(&field)).map(|(term, factor)| {
-                let (factors, factor) = (term.iter().filter_map(|known| fields[*known].as_ref()), rational(factor));
+                let (factors, factor) =
+                    (term.iter().filter_map(|known| fields[*known].as_ref()), arithmetic::constant(factor));
                 quote!(- #factor #(* (#factors))*)
             });
-            let (known, inverse) = (known.collect::<TokenStream>(), rational(inverse));
+            let (known, inverse) = (known.collect::<TokenStream>(), arithmetic::constant(inverse));
             fields[field] = Some(quote!(((#read) #known) * #inverse));
         }
         let unread = format!("the dynamic twin cannot read the numbers of a `{}`", ty.name);
@@ -334,7 +336,7 @@ fn coefficient(signature: &Signature, value: &TokenStream, blade: Blade) -> Toke
         terms = next.into_iter().filter(|(_, c)| !c.is_zero()).collect();
     }
     let parts = terms.into_iter().map(|(blade, factor)| {
-        let (blade, magnitude) = (Literal::u32_unsuffixed(blade.0), rational(factor.abs()));
+        let (blade, magnitude) = (Literal::u32_unsuffixed(blade.0), arithmetic::constant(factor.abs()));
         let read = if factor.abs() == Rational::ONE {
             quote!(#value.coefficient(#blade))
         } else {

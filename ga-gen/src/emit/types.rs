@@ -1,5 +1,6 @@
 //! Tokens of the types: structs, constructors, conversions, linear operations, the view in an orthonormal basis.
 
+use super::arithmetic;
 use super::code::identifier;
 use crate::blade::{Blade, swaps_are_odd};
 use crate::item;
@@ -251,7 +252,7 @@ fn unit_operations(spec: &Spec, index: usize, ty: &Type) -> TokenStream {
         });
     }
     if ty.versor {
-        let identity = ty.identity().into_iter().map(rational);
+        let identity = ty.identity().into_iter().map(arithmetic::constant);
         tokens.extend(quote! {
             impl<T: ::ga_physics::algebra::Scalar> Default for #name<T> {
                 /// The identity.
@@ -315,7 +316,7 @@ pub(super) fn to_dynamic(spec: &Spec, index: usize) -> TokenStream {
             orthonormal(spec, *blade).into_iter().map(move |(b, d)| (b, d * value))
         });
         let entries = terms.map(|(blade, value)| {
-            let (blade, value) = (Literal::u32_unsuffixed(blade.0), rational(value));
+            let (blade, value) = (Literal::u32_unsuffixed(blade.0), arithmetic::constant(value));
             quote!((#blade, #value))
         });
         let path = path(spec, index);
@@ -338,7 +339,7 @@ pub(super) fn to_dynamic(spec: &Spec, index: usize) -> TokenStream {
     let entries = by_blade.iter().filter(|(_, p)| !p.is_zero()).map(|(blade, polynomial)| {
         let blade = Literal::u32_unsuffixed(blade.0);
         let terms = polynomial.terms().map(|(term, value)| {
-            let (value, factors) = (rational(value), term.iter().map(|field| &fields[*field]));
+            let (value, factors) = (arithmetic::constant(value), term.iter().map(|field| &fields[*field]));
             quote!(#value #(* self.#factors)*)
         });
         quote!((#blade, #(#terms)+*))
@@ -350,15 +351,5 @@ pub(super) fn to_dynamic(spec: &Spec, index: usize) -> TokenStream {
                 ::ga_physics::algebra::dynamic::Dynamic::from_terms(&[#(#entries),*])
             }
         }
-    }
-}
-
-pub(super) fn rational(value: Rational) -> TokenStream {
-    let part = |n: i128| Literal::i32_unsuffixed(i32::try_from(n).unwrap_or(i32::MAX));
-    let (magnitude, denominator) = (part(value.numerator().abs()), part(value.denominator()));
-    if value.is_negative() {
-        quote!(T::ratio(-#magnitude, #denominator))
-    } else {
-        quote!(T::ratio(#magnitude, #denominator))
     }
 }
