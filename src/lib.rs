@@ -6,7 +6,7 @@
 //! * [`versor`]: rotors, translators, motors, dilators, conformal rotors; their exponentials, logarithms and interpolation.
 //!   [`geometry`]: points, flats, rounds, meets, meshes.
 //! * [`interop`]: the same things in the types of other crates.
-//! * `ode`, `rigid`, `collision`, `simulation` (feature `physics`): bodies in motion.
+//! * `ode`, `particle`, `rigid`, `collision`, `simulation` (feature `physics`): particles and bodies in motion.
 //! * `io`, `scene`, `study`, `cli` (feature `cli`): what the command needs.
 //!
 //! A layer uses only the ones named before it.
@@ -97,6 +97,8 @@ pub mod interop;
 pub mod io;
 #[cfg(feature = "physics")]
 pub mod ode;
+#[cfg(feature = "physics")]
+pub mod particle;
 #[cfg(feature = "physics")]
 pub mod rigid;
 #[cfg(feature = "cli")]

@@ -1,0 +1,18 @@
+//! Particles: point masses under forces and constraints (report, section 2.1).
+//!
+//! ```text
+//! xdot = v     m vdot = F + Jᵀ lambda     C(x) = 0     (21), (22)
+//! ```
+//!
+//! [`Particles`] is the state, [`Force`] what acts, [`Constraint`] what is held. Only the forces that are named are
+//! evaluated.
+
+mod constraint;
+mod force;
+mod own;
+mod state;
+
+pub use constraint::Constraint;
+pub use force::Force;
+pub use own::{ConstraintFunction, Differentiable, ForceLaw, OwnConstraint, OwnForce, OwnPotential, Potential};
+pub use state::{Particles, Rates};
