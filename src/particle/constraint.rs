@@ -37,7 +37,9 @@ pub enum Constraint {
     On {
         /// The particle.
         particle: usize,
-        /// S.
+        /// A point near the surface. Far from the origin `X . S` would lose the digits of x².
+        anchor: Point<f64>,
+        /// S in the frame that has the anchor as its origin.
         surface: Round<f64>,
     },
     /// One's own.
