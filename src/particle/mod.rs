@@ -13,6 +13,6 @@ mod own;
 mod state;
 
 pub use constraint::Constraint;
-pub use force::Force;
+pub use force::{Force, Masses};
 pub use own::{ConstraintFunction, Differentiable, ForceLaw, OwnConstraint, OwnForce, OwnPotential, Potential};
 pub use state::{Particles, Rates};

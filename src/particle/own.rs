@@ -16,9 +16,10 @@
 //! # let _ = bead;
 //! ```
 
-use crate::algebra::Scalar;
+use super::Particles;
 use crate::algebra::cga::Point;
 use crate::algebra::g3::Vector;
+use crate::algebra::{Real, Scalar};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::fmt;
@@ -119,11 +120,11 @@ impl Bound {
     }
 
     /// `d²C/dt²` along straight motions: `Jdot xdot`.
-    fn curvature(&self, position: &[Point<f64>], velocity: &[Vector<f64>], scratch: &mut Scratch) -> f64 {
+    fn curvature<T: Real>(&self, state: &Particles<T>, scratch: &mut Scratch) -> f64 {
         scratch.second.clear();
         scratch.second.extend(self.particles.iter().map(|particle| {
-            let (x, v) = (<[f64; 3]>::from(position[*particle]), <[f64; 3]>::from(velocity[*particle]));
-            Point::from(core::array::from_fn(|axis| Dual2_64::new(x[axis], v[axis], 0.0)))
+            let (x, v) = (<[f64; 3]>::from(state.position[*particle]), <[T; 3]>::from(state.velocity[*particle]));
+            Point::from(core::array::from_fn(|axis| Dual2_64::new(x[axis], v[axis].to_f64(), 0.0)))
         }));
         self.function.curvature(&scratch.second)
     }
@@ -144,6 +145,26 @@ impl OwnConstraint {
     pub fn particles(&self) -> &[usize] {
         &self.0.particles
     }
+
+    /// C.
+    pub(super) fn value(&self, position: &[Point<f64>], scratch: &mut Scratch) -> f64 {
+        self.0.value(position, scratch)
+    }
+
+    /// `dC/dx`, particle by particle, in the order of [`OwnConstraint::particles`].
+    pub(super) fn gradient(
+        &self,
+        position: &[Point<f64>],
+        scratch: &mut Scratch,
+        with: impl FnMut(usize, Vector<f64>),
+    ) {
+        self.0.gradient(position, scratch, with);
+    }
+
+    /// `Jdot xdot`.
+    pub(super) fn curvature<T: Real>(&self, state: &Particles<T>, scratch: &mut Scratch) -> f64 {
+        self.0.curvature(state, scratch)
+    }
 }
 
 /// A force of one's own, given by its potential.
@@ -160,6 +181,21 @@ impl OwnPotential {
     #[must_use]
     pub fn particles(&self) -> &[usize] {
         &self.0.particles
+    }
+
+    /// V, J.
+    pub(super) fn energy(&self, position: &[Point<f64>], scratch: &mut Scratch) -> f64 {
+        self.0.value(position, scratch)
+    }
+
+    /// `-dV/dx`, N.
+    pub(super) fn force(
+        &self,
+        position: &[Point<f64>],
+        scratch: &mut Scratch,
+        mut with: impl FnMut(usize, Vector<f64>),
+    ) {
+        self.0.gradient(position, scratch, |particle, slope| with(particle, -slope));
     }
 }
 
@@ -180,6 +216,25 @@ impl OwnForce {
     #[must_use]
     pub fn particles(&self) -> &[usize] {
         &self.particles
+    }
+
+    /// The force on each of its particles, N.
+    pub(super) fn force<T: Real>(
+        &self,
+        t_s: f64,
+        state: &Particles<T>,
+        scratch: &mut Scratch,
+        mut with: impl FnMut(usize, Vector<f64>),
+    ) {
+        let Scratch { at, velocity, force, .. } = scratch;
+        at.clear();
+        at.extend(self.particles.iter().map(|particle| state.position[*particle]));
+        velocity.clear();
+        velocity.extend(self.particles.iter().map(|particle| state.velocity[*particle].map(Real::to_f64)));
+        force.clear();
+        force.resize(self.particles.len(), Vector::default());
+        self.law.force(t_s, at, velocity, force);
+        self.particles.iter().zip(force.iter()).for_each(|(particle, force)| with(*particle, *force));
     }
 }
 
