@@ -8,11 +8,13 @@
 //! evaluated.
 
 mod constraint;
+mod energy;
 mod force;
 mod own;
 mod state;
 
 pub use constraint::Constraint;
+pub use energy::{Totals, totals};
 pub use force::{Force, Masses};
 pub use own::{ConstraintFunction, Differentiable, ForceLaw, OwnConstraint, OwnForce, OwnPotential, Potential};
 pub use state::{Particles, Rates};

@@ -2,24 +2,8 @@
 
 use super::{Bodies, Inertia};
 use crate::algebra::Real;
-use crate::algebra::g3::{Bivector, Vector};
-
-/// Sums over all movable bodies, in f64. Angular momentum is about the origin, orbital part included.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Totals {
-    /// Kinetic energy, J.
-    pub kinetic: f64,
-    /// Potential energy in uniform gravity, J, zero at the origin.
-    pub potential: f64,
-    /// Momentum, kg m/s.
-    pub momentum: Vector<f64>,
-    /// Angular momentum about the origin, kg m²/s.
-    pub angular_momentum: Bivector<f64>,
-    /// Sum of |p|, the scale of momentum drift.
-    pub momentum_scale: f64,
-    /// Sum of |L|, the scale of angular momentum drift.
-    pub angular_momentum_scale: f64,
-}
+use crate::algebra::g3::Vector;
+use crate::particle::Totals;
 
 /// Sums over all movable bodies.
 #[must_use]

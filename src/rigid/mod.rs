@@ -7,6 +7,7 @@ mod energy;
 mod force;
 pub mod rotor;
 
+pub use crate::particle::Totals;
 pub use body::{Bodies, BodyError, Inertia, Rates};
-pub use energy::{Totals, totals};
+pub use energy::totals;
 pub use force::{Force, Forces};
