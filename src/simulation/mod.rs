@@ -6,8 +6,10 @@
 
 mod event;
 mod record;
+mod run_ahead;
 mod world;
 
 pub use event::{Event, EventKind};
 pub use record::{BodySample, Drifts, EnergySample, Frame, Record, state_hash};
+pub use run_ahead::{Next, RunAhead};
 pub use world::{Setup, SimulationError, World};
