@@ -6,7 +6,8 @@
 //! * [`versor`]: rotors, translators, motors, dilators, conformal rotors; their exponentials, logarithms and interpolation.
 //!   [`geometry`]: points, flats, rounds, meets, meshes.
 //! * [`interop`]: the same things in the types of other crates.
-//! * `ode`, `particle`, `rigid`, `collision`, `simulation` (feature `physics`): particles and bodies in motion.
+//! * `ode`, `constraint`, `particle`, `rigid`, `collision`, `simulation` (feature `physics`): particles and bodies in
+//!   motion.
 //! * `io`, `scene`, `study`, `cli` (feature `cli`): what the command needs.
 //!
 //! A layer uses only the ones named before it.
@@ -91,6 +92,8 @@ pub mod algebra;
 pub mod cli;
 #[cfg(feature = "physics")]
 pub mod collision;
+#[cfg(feature = "physics")]
+pub mod constraint;
 pub mod geometry;
 pub mod interop;
 #[cfg(feature = "cli")]

@@ -1,0 +1,144 @@
+//! A solver together with the gradients that it was prepared at: what an integrator keeps of its constraints.
+//!
+//! `freeze` copies the gradients and factors A there; every solution and projection goes by these until the next `freeze`.
+//! The rows that the caller refills may meanwhile be elsewhere.
+
+use super::{ConjugateGradients, Direct, InverseMass, Rows, SolveError, Solved, Stop};
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// Which solver.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Method {
+    /// Sparse `L D L^T`.
+    Direct,
+    /// Conjugate gradients with an incomplete factor.
+    ConjugateGradients(Stop),
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Solver<const D: usize> {
+    Direct(Direct<D>),
+    ConjugateGradients(ConjugateGradients<D>),
+}
+
+/// The multipliers of constraints at frozen gradients. See the [module](self).
+#[derive(Clone, Debug)]
+pub struct Multipliers<const D: usize> {
+    pub(super) solver: Solver<D>,
+    pub(super) frozen: Rows<D>,
+    pub(super) valid: bool,
+    pub(super) lambda: Vec<f64>,
+    pub(super) step: Vec<[f64; D]>,
+    pub(super) total: Vec<[f64; D]>,
+    speed: Vec<f64>,
+}
+
+impl<const D: usize> Multipliers<D> {
+    /// For rows of this pattern. A block that is fixed now must stay so, or new multipliers be made.
+    #[must_use]
+    pub fn new(rows: &Rows<D>, inverse_mass: &(impl InverseMass<D> + ?Sized), method: Method) -> Self {
+        let solver = match method {
+            Method::Direct => Solver::Direct(Direct::new(rows, inverse_mass)),
+            Method::ConjugateGradients(stop) => {
+                Solver::ConjugateGradients(ConjugateGradients::incomplete(rows, inverse_mass, stop))
+            }
+        };
+        let blocks = || vec![[0.0; D]; rows.blocks()];
+        let numbers = || vec![0.0; rows.len()];
+        Self {
+            solver,
+            frozen: rows.clone(),
+            valid: false,
+            lambda: numbers(),
+            step: blocks(),
+            total: blocks(),
+            speed: numbers(),
+        }
+    }
+
+    /// Takes over the gradients and factors A there.
+    ///
+    /// # Errors
+    /// A gradient or mass that is not finite.
+    pub fn freeze(&mut self, rows: &Rows<D>, inverse_mass: &(impl InverseMass<D> + ?Sized)) -> Result<(), SolveError> {
+        self.frozen.assign_gradients(rows);
+        self.valid = false;
+        match &mut self.solver {
+            Solver::Direct(solver) => solver.prepare(&self.frozen, inverse_mass)?,
+            Solver::ConjugateGradients(solver) => solver.prepare(&self.frozen, inverse_mass)?,
+        }
+        self.valid = true;
+        Ok(())
+    }
+
+    /// The rows with the gradients of the last `freeze`; their values and curvatures are older.
+    #[must_use]
+    pub fn frozen(&self) -> &Rows<D> {
+        &self.frozen
+    }
+
+    /// The rows that the last factorisation found redundant; conjugate gradients do not find out.
+    #[must_use]
+    pub fn redundant(&self) -> &[u32] {
+        match &self.solver {
+            Solver::Direct(solver) => solver.redundant(),
+            Solver::ConjugateGradients(_) => &[],
+        }
+    }
+
+    /// Solves `A lambda = b` at the frozen gradients; conjugate gradients start from the `lambda` given.
+    ///
+    /// # Errors
+    /// Rows that contradict each other; a right-hand side that is not finite.
+    pub fn solve(
+        &mut self,
+        inverse_mass: &(impl InverseMass<D> + ?Sized),
+        b: &[f64],
+        lambda: &mut [f64],
+    ) -> Result<Solved, SolveError> {
+        match &mut self.solver {
+            Solver::Direct(solver) => solver.solve(&self.frozen, inverse_mass, b, lambda),
+            Solver::ConjugateGradients(solver) => solver.solve(&self.frozen, inverse_mass, b, lambda),
+        }
+    }
+
+    /// The change `-W J^T A^-1 J v` that takes velocities onto `J v = 0`, block by block; J at the frozen gradients. The
+    /// smallest such change in the norm of the kinetic energy.
+    ///
+    /// # Errors
+    /// A velocity that is not finite.
+    pub fn velocity_change(
+        &mut self,
+        inverse_mass: &(impl InverseMass<D> + ?Sized),
+        velocity: impl Fn(usize) -> [f64; D],
+    ) -> Result<&[[f64; D]], SolveError> {
+        let mut speed = core::mem::take(&mut self.speed);
+        self.frozen.times(velocity, &mut speed);
+        let outcome = self.correct(inverse_mass, &speed);
+        self.speed = speed;
+        outcome.map(|()| self.step.as_slice())
+    }
+
+    /// `step = -W J^T A^-1 b` at the frozen gradients.
+    pub(super) fn correct(
+        &mut self,
+        inverse_mass: &(impl InverseMass<D> + ?Sized),
+        b: &[f64],
+    ) -> Result<(), SolveError> {
+        let Self { solver, frozen, lambda, step, .. } = self;
+        match solver {
+            // What dropped rows ask for may differ within the tolerance of positions: that they hold is checked on them.
+            Solver::Direct(solver) => solver.solve_leaving(frozen, inverse_mass, b, lambda)?,
+            Solver::ConjugateGradients(solver) => {
+                lambda.fill(0.0);
+                solver.solve(frozen, inverse_mass, b, lambda)?.iterations
+            }
+        };
+        frozen.response(inverse_mass, lambda, step);
+        for step in step {
+            *step = step.map(|x| -x);
+        }
+        Ok(())
+    }
+}
