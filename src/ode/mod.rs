@@ -1,20 +1,27 @@
-//! Steppers for ordinary differential equations `dy/dt = f(t, y)`. They know no bodies: a state says how a rate moves it.
+//! Integrators of ordinary differential equations `dy/dt = f(t, y)`. They know no bodies: a [`State`] says how a rate moves
+//! it, a [`System`] what its rate is.
 
-mod rk4;
+mod adaptive;
+mod control;
+mod error;
+mod event;
+mod fixed;
+pub mod root;
+mod runge_kutta;
+mod segment;
+mod state;
+mod stepper;
+mod symplectic;
+mod system;
+pub mod tableau;
 
-pub use rk4::Rk4;
-
-/// A state that a rate can move: `y + h k`.
-///
-/// State and rate are separate types, because they need not be of the same kind: a world position may be an f64 point
-/// while its rate is an f32 vector.
-pub trait State<T> {
-    /// The derivative of the state with time.
-    type Rate;
-
-    /// Becomes a copy of another state of the same size, without allocation.
-    fn assign(&mut self, other: &Self);
-
-    /// `y + sum h_i k_i`. The sum is formed before it is added, so that a large state is rounded once.
-    fn add_scaled(&mut self, terms: &[(T, &Self::Rate)]);
-}
+pub use adaptive::Adaptive;
+pub use error::{OdeError, StepError};
+pub use event::{Crossing, Event, Hit, Watch};
+pub use fixed::Fixed;
+pub use runge_kutta::RungeKutta;
+pub use state::{Controlled, SMALLEST_RTOL_EPS, State, Tolerance, ToleranceError};
+pub use stepper::{MAX_STEPS, Stepper, Work};
+pub use symplectic::{Composition, Symplectic};
+pub use system::{Mechanics, System};
+pub use tableau::{CashKarp, Dop853, Embedded, Euler, Rk4, Rk4Doubling, Tableau, Tsit5};

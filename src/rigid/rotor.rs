@@ -11,7 +11,7 @@ use super::force::Motion;
 use super::{Bodies, Force, Forces, Inertia, Rates};
 use crate::algebra::Real;
 use crate::algebra::g3::Rotor;
-use crate::ode::Rk4;
+use crate::ode::{Rk4, RungeKutta};
 use crate::versor::NotARotor;
 use alloc::vec::Vec;
 
@@ -59,7 +59,7 @@ pub enum AdvanceError {
 /// Integrates the rotor form; holds the stage storage.
 #[derive(Clone, Debug)]
 pub struct Integrator<T: Real> {
-    rk4: Rk4<Bodies<T>, T>,
+    rk4: RungeKutta<Rk4, Bodies<T>, T>,
     /// Indices of the forces that act in the current span.
     acting: Vec<usize>,
 }
@@ -68,7 +68,7 @@ impl<T: Real> Integrator<T> {
     /// Storage for as many bodies as the state has.
     #[must_use]
     pub fn new(bodies: &Bodies<T>) -> Self {
-        Self { rk4: Rk4::new(bodies.clone(), Rates::zeros(bodies.len())), acting: Vec::new() }
+        Self { rk4: RungeKutta::new(bodies.clone(), Rates::zeros(bodies.len())), acting: Vec::new() }
     }
 
     /// Advances all bodies from `time_s` by `dt_s`, in equal substeps between the times at which forces switch. Returns
@@ -112,9 +112,10 @@ impl<T: Real> Integrator<T> {
         for index in 0..substeps {
             let start = time_s + h * f64::from(index);
             let acting = &self.acting;
-            self.rk4.step(bodies, start, T::from_f64(h), |_, state, rates| {
+            let mut motion = |_: f64, state: &Bodies<T>, rates: &mut Rates<T>| {
                 rhs(state, inertias, forces.gravity, acting.iter().map(|index| &forces.forces[*index]), rates);
-            });
+            };
+            let Ok(()) = self.rk4.step(bodies, start, h, &mut motion);
             renormalise(bodies, start + h)?;
         }
         Ok(substeps as usize)

@@ -1,0 +1,6 @@
+//! The integrators: orders of convergence and of dense output, order conditions in exact arithmetic, step control, events,
+//! counters, symplectic motion.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod orders;
+mod problems;
