@@ -103,6 +103,23 @@ impl<const D: usize> Multipliers<D> {
         }
     }
 
+    /// The same, but what redundant rows ask for is left open: within a step, off the constraints by an error of its order,
+    /// they disagree by as much. Conjugate gradients may stop short.
+    ///
+    /// # Errors
+    /// A right-hand side that is not finite.
+    pub fn solve_leaving(
+        &mut self,
+        inverse_mass: &(impl InverseMass<D> + ?Sized),
+        b: &[f64],
+        lambda: &mut [f64],
+    ) -> Result<(), SolveError> {
+        match &mut self.solver {
+            Solver::Direct(solver) => solver.solve_leaving(&self.frozen, inverse_mass, b, lambda).map(drop),
+            Solver::ConjugateGradients(solver) => solver.solve(&self.frozen, inverse_mass, b, lambda).map(drop),
+        }
+    }
+
     /// The change `-W J^T A^-1 J v` that takes velocities onto `J v = 0`, block by block; J at the frozen gradients. The
     /// smallest such change in the norm of the kinetic energy.
     ///

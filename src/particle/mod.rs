@@ -10,11 +10,18 @@
 mod constraint;
 mod energy;
 mod force;
+mod held;
+mod method;
+mod motion;
 mod own;
 mod state;
+mod system;
 
 pub use constraint::Constraint;
 pub use energy::{Totals, totals};
 pub use force::{Force, Masses};
+pub use method::{LinearSolver, Method, Solver, Stabilisation, Steps};
+pub use motion::{Motion, SolverError};
 pub use own::{ConstraintFunction, Differentiable, ForceLaw, OwnConstraint, OwnForce, OwnPotential, Potential};
 pub use state::{Particles, Rates};
+pub use system::{MotionError, Setup, System};

@@ -3,7 +3,7 @@
 use crate::algebra::Real;
 use crate::algebra::cga::Point;
 use crate::algebra::g3::Vector;
-use crate::ode::State;
+use crate::ode::{Controlled, State, Tolerance};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -77,5 +77,34 @@ impl<T: Real> State<T> for Particles<T> {
             *position = position.moved(moved.map(Real::to_f64));
             *velocity += gained;
         }
+    }
+}
+
+impl<T: Real> Controlled<T> for Particles<T> {
+    /// Coordinate by coordinate, positions in m and velocities in m/s.
+    fn error_ratio(&self, next: &Self, terms: &[(T, &Rates<T>)], tolerance: Tolerance<T>) -> T {
+        let (mut worst, mut sum) = (T::zero(), T::zero());
+        let mut take = |error: T, before: T, after: T| {
+            let allowed = tolerance.atol + tolerance.rtol * before.abs().max(after.abs());
+            let ratio = if error == T::zero() { T::zero() } else { error.abs() / allowed };
+            worst = worst.max(ratio);
+            sum = sum + ratio;
+        };
+        for index in 0..self.len() {
+            let (mut moved, mut gained) = (Vector::default(), Vector::default());
+            for (h, rates) in terms {
+                moved += rates.velocity[index] * *h;
+                gained += rates.acceleration[index] * *h;
+            }
+            let ends = |at: &Self| (at.position[index].position().map(T::from_f64), at.velocity[index]);
+            let ((x, v), (next_x, next_v)) = (ends(self), ends(next));
+            for (error, before, after) in [(moved, x, next_x), (gained, v, next_v)] {
+                take(error.e1, before.e1, after.e1);
+                take(error.e2, before.e2, after.e2);
+                take(error.e3, before.e3, after.e3);
+            }
+        }
+        // A maximum forgets what is no number, a sum does not.
+        if sum.is_finite() { worst } else { sum }
     }
 }

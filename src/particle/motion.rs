@@ -1,0 +1,137 @@
+//! Particles in motion: a system with the stepper that was chosen for it.
+
+use super::{Method, MotionError, Particles, Rates, Setup, Solver, Steps, System, Totals};
+use crate::algebra::Real;
+use crate::algebra::g3::Vector;
+use crate::ode::{
+    Adaptive, CashKarp, Composition, Dop853, Euler, Fixed, OdeError, Rk4, Rk4Doubling, StepError, Stepper, Symplectic,
+    Tolerance, ToleranceError, Tsit5, Work,
+};
+use alloc::boxed::Box;
+use alloc::vec;
+use alloc::vec::Vec;
+use thiserror::Error;
+
+/// Why a solver cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum SolverError {
+    /// The step.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// The tolerance.
+    #[error(transparent)]
+    Tolerance(#[from] ToleranceError),
+    /// Error control without an error estimate.
+    #[error("`{}` does not estimate its error and needs a fixed step", .0.name())]
+    NotAdaptive(Method),
+}
+
+type Step<T> = Box<dyn Stepper<Particles<T>, System<T>, Error = MotionError> + Send + Sync>;
+
+/// Particles that move.
+pub struct Motion<T: Real> {
+    system: System<T>,
+    stepper: Step<T>,
+    state: Particles<T>,
+    time_s: f64,
+}
+
+impl<T: Real> Motion<T> {
+    /// Starts at time 0.
+    ///
+    /// # Errors
+    /// A solver that cannot be used.
+    pub fn new(setup: Setup<T>, start: Particles<T>, solver: &Solver) -> Result<Self, SolverError> {
+        let system = System::new(setup, &start, solver);
+        let stepper = stepper(&start, solver)?;
+        Ok(Self { system, stepper, state: start, time_s: 0.0 })
+    }
+
+    /// Advances to a time; the state is then that of this time, whatever steps were taken.
+    ///
+    /// # Errors
+    /// A step that cannot be made. State and time are then those of the last good step.
+    pub fn advance_to(&mut self, time_s: f64) -> Result<(), OdeError<MotionError>> {
+        let done = self.stepper.advance_to(&mut self.system, time_s, &mut self.state);
+        self.time_s = time_s;
+        if done.is_err() && self.stepper.time_s() < time_s {
+            self.time_s = self.stepper.time_s();
+            self.state.clone_from(self.stepper.state());
+        }
+        done
+    }
+
+    /// The time, s.
+    #[must_use]
+    pub fn time_s(&self) -> f64 {
+        self.time_s
+    }
+
+    /// The state.
+    #[must_use]
+    pub fn state(&self) -> &Particles<T> {
+        &self.state
+    }
+
+    /// Masses, forces, constraints.
+    #[must_use]
+    pub fn system(&self) -> &System<T> {
+        &self.system
+    }
+
+    /// The worst violation of a constraint, m, and which; none without constraints.
+    pub fn worst_violation(&mut self) -> Option<(usize, f64)> {
+        self.system.worst_violation(&self.state)
+    }
+
+    /// Energy and momenta.
+    #[must_use]
+    pub fn totals(&self) -> Totals {
+        self.system.totals(&self.state)
+    }
+
+    /// What it has cost.
+    #[must_use]
+    pub fn work(&self) -> Work {
+        self.stepper.work()
+    }
+}
+
+fn stepper<T: Real>(start: &Particles<T>, solver: &Solver) -> Result<Step<T>, SolverError> {
+    let rates = Rates::zeros(start.len());
+    let accelerations: Vec<Vector<T>> = vec![Vector::default(); start.len()];
+    macro_rules! fixed {
+        ($method:ty, $dt_s:expr) => {
+            Box::new(Fixed::<$method, _, T>::new(0.0, start.clone(), rates, $dt_s)?)
+        };
+    }
+    macro_rules! adaptive {
+        ($method:ty, $tolerance:expr) => {
+            Box::new(Adaptive::<$method, _, T>::new(0.0, start.clone(), rates, $tolerance)?)
+        };
+    }
+    let split = |composition, dt_s| Symplectic::new(composition, 0.0, start.clone(), accelerations, dt_s);
+    Ok(match solver.steps {
+        Steps::Fixed { dt_s } => match solver.method {
+            Method::Euler => fixed!(Euler, dt_s),
+            Method::Rk4 | Method::Rk4Doubling => fixed!(Rk4, dt_s),
+            Method::CashKarp => fixed!(CashKarp, dt_s),
+            Method::Tsit5 => fixed!(Tsit5, dt_s),
+            Method::Dop853 => fixed!(Dop853, dt_s),
+            Method::Verlet => Box::new(split(Composition::Verlet, dt_s)?),
+            Method::Yoshida4 => Box::new(split(Composition::Yoshida4, dt_s)?),
+            Method::Yoshida6 => Box::new(split(Composition::Yoshida6, dt_s)?),
+            Method::Xpbd => Box::new(split(Composition::Verlet, dt_s)?),
+        },
+        Steps::Adaptive { tolerance } => {
+            let tolerance = Tolerance { rtol: T::from_f64(tolerance.rtol), atol: T::from_f64(tolerance.atol) };
+            match solver.method {
+                Method::Rk4Doubling => adaptive!(Rk4Doubling, tolerance),
+                Method::CashKarp => adaptive!(CashKarp, tolerance),
+                Method::Tsit5 => adaptive!(Tsit5, tolerance),
+                Method::Dop853 => adaptive!(Dop853, tolerance),
+                method => return Err(SolverError::NotAdaptive(method)),
+            }
+        }
+    })
+}
