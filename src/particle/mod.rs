@@ -16,6 +16,7 @@ mod motion;
 mod own;
 mod state;
 mod system;
+pub mod xpbd;
 
 pub use constraint::Constraint;
 pub use energy::{Totals, totals};
