@@ -47,7 +47,7 @@ fn run_in<T: Real>(options: &Options, scene: &Scene, source: SceneSource) -> Res
         Err(diagnostics) => return Err(Failure::rejected(Rejected { source, diagnostics })),
     };
     let names: Vec<String> = scene.body.iter().map(|body| body.name.get_ref().clone()).collect();
-    let Built { setup, looks } = built;
+    let Built { setup, looks, .. } = built;
     let out = options.out.clone().unwrap_or_else(|| Path::new("out").join(scene_name(&options.scene)));
     // Before the run: a directory that cannot be made should not cost a simulation.
     std::fs::create_dir_all(&out).map_err(|source| WriteError { path: out.clone(), source })?;
@@ -93,8 +93,8 @@ fn simulate<T: Real>(
     scene: &Scene,
     bar: &ProgressBar,
 ) -> (u64, Result<(), SimulationError>) {
-    let (dt_s, duration_s) = (*scene.dt_s.get_ref(), *scene.duration_s.get_ref());
-    let interval_s = scene.record_hz.as_ref().map_or(0.0, |hz| 1.0 / hz.get_ref());
+    let (dt_s, duration_s) = (plan::interval_s(scene), *scene.duration_s.get_ref());
+    let interval_s = plan::record_hz(scene).map_or(0.0, |hz| 1.0 / hz);
     let steps = plan::steps(scene);
     let mut frames = 1_u64;
     record.observe(world, true);
@@ -171,8 +171,8 @@ fn summarise<T: Real>(
         failure,
         settings: Settings {
             duration_s: *scene.duration_s.get_ref(),
-            dt_s: *scene.dt_s.get_ref(),
-            record_hz: scene.record_hz.as_ref().map(|hz| *hz.get_ref()),
+            dt_s: scene.dt_s.as_ref().map(|dt| *dt.get_ref()),
+            record_hz: plan::record_hz(scene),
             formulation: "rotor".into(),
             scalar: if size_of::<T>() == size_of::<f64>() { "f64".into() } else { "f32".into() },
             method: "rk4".into(),

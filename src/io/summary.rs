@@ -48,8 +48,8 @@ pub struct Summary {
 pub struct Settings {
     /// Duration asked for, s.
     pub duration_s: f64,
-    /// Step, s.
-    pub dt_s: f64,
+    /// Step, s; the largest where the method chooses them; null: none given.
+    pub dt_s: Option<f64>,
     /// Frames a second of simulated time; null: every step.
     pub record_hz: Option<f64>,
     /// The formulation of rigid motion.

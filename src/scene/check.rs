@@ -13,12 +13,12 @@ use crate::scene::diagnostic::Diagnostic;
 use crate::scene::read::Damage;
 use crate::scene::values::Numbers;
 
+mod forces;
+mod held;
 mod inertia;
+mod particles;
 mod relations;
-
-/// The most states of bodies that a run may record: each takes about 400 bytes in the record, the tables and the page
-/// together, so this is 2 GB.
-const MAX_RECORDED: f64 = 5e6;
+mod solver;
 
 /// The largest number of steps of a run. One body takes about a microsecond a step, so that a run
 /// of this many lasts at least a quarter of an hour; more is nearly always a slip in `dt_s`.
@@ -28,21 +28,26 @@ pub const MAX_STEPS: f64 = 1e9;
 pub(crate) fn check(scene: &Scene, source: &SceneSource, damage: &Damage) -> Vec<Diagnostic> {
     let mut checker = Checker { found: Vec::new() };
     checker.times(scene);
+    checker.solver(scene);
     checker.finite("gravity_m_s2", &scene.gravity_m_s2);
     checker.restitution(&scene.contact.restitution);
     checker.names(&scene.body);
     for (idx, body) in scene.body.iter().enumerate() {
         checker.body(body);
-        if !damage.of_body(idx) {
+        if !damage.of("body", idx) {
             checker.completeness(body);
         }
         if let Some(Shape::Mesh(mesh)) = &body.shape {
             checker.mesh_file(&mesh.file, source);
         }
     }
+    let roster = checker.particles(scene, damage);
     for force in &scene.force {
         checker.force(force, scene);
-        checker.force_body(force, scene, damage);
+    }
+    checker.force_targets(scene, roster.as_ref(), damage);
+    if let Some(roster) = &roster {
+        checker.constraints(scene, roster, damage);
     }
     checker.found
 }
@@ -85,47 +90,6 @@ impl Checker {
         let diagnostic = Diagnostic::new(format!("`{key}` must be positive, not {x:?}"));
         self.report(diagnostic.at(value.span()).label("must be greater than 0").help(help));
         None
-    }
-
-    fn times(&mut self, scene: &Scene) {
-        let duration = self.positive("duration_s", &scene.duration_s, "how long the run lasts");
-        let dt = self.positive("dt_s", &scene.dt_s, "the time step; 0.01 is a fair start");
-        if let Some(record_hz) = &scene.record_hz {
-            let help = "frames per second; leave it out to record every step";
-            self.positive("record_hz", record_hz, help);
-        }
-        let (Some(duration), Some(dt)) = (duration, dt) else {
-            return;
-        };
-        let steps = duration / dt;
-        let span = scene.dt_s.span();
-        if dt > duration {
-            let message = format!("`dt_s` = {dt:?} is longer than the run of {duration:?} s");
-            let diagnostic = Diagnostic::new(message).at(span).label("longer than `duration_s`");
-            self.report(diagnostic.help("make `dt_s` smaller or `duration_s` larger"));
-        } else if steps > MAX_STEPS {
-            let message = format!("the run would take {steps:.1e} steps, more than {MAX_STEPS:.0e}");
-            let diagnostic = Diagnostic::new(message).at(span).label("too small for `duration_s`");
-            let least = duration / MAX_STEPS;
-            self.report(diagnostic.help(format!("use a `dt_s` of at least {least:?}")));
-        } else {
-            self.recorded(scene, duration, steps);
-        }
-    }
-
-    /// Frames are held in memory until the run ends.
-    fn recorded(&mut self, scene: &Scene, duration: f64, steps: f64) {
-        let hz = scene.record_hz.as_ref().map_or(f64::INFINITY, |hz| *hz.get_ref());
-        #[expect(clippy::cast_precision_loss, reason = "a number of bodies")]
-        let bodies = scene.body.len().max(1) as f64;
-        let states = steps.min(duration * hz) * bodies;
-        if states > MAX_RECORDED {
-            let span = scene.record_hz.as_ref().map_or(scene.dt_s.span(), Spanned::span);
-            let message = format!("the run would record {states:.1e} states of bodies, more than {MAX_RECORDED:.0e}");
-            let most = MAX_RECORDED / bodies / duration;
-            let diagnostic = Diagnostic::new(message).at(span).label("too many to hold in memory");
-            self.report(diagnostic.help(format!("set `record_hz` to at most {most:.3}")));
-        }
     }
 
     fn restitution(&mut self, value: &Spanned<f64>) {

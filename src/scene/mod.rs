@@ -33,6 +33,7 @@ mod check;
 pub mod description;
 mod diagnostic;
 mod overrides;
+mod particles;
 pub mod plan;
 mod read;
 mod schema;

@@ -2,7 +2,7 @@
 //!
 //! serde stops at the first mistake. So the entry at fault is taken out of the document and the
 //! rest read again, until a scene comes out. A required entry that is missing, or that was taken
-//! out, is replaced by a placeholder: NaN or an empty text at [`PLACEHOLDER`], a place that no text
+//! out, is replaced by a placeholder: NaN, 0 or an empty text at [`PLACEHOLDER`], a place that no text
 //! has. Later complaints about that place follow from the first mistake and are dropped.
 
 use std::ops::Range;
@@ -33,25 +33,31 @@ pub(crate) struct Reading {
 /// Which parts of the scene are not what the file says, so that "this is missing" may not be said.
 #[derive(Default)]
 pub(crate) struct Damage {
-    bodies: Vec<usize>,
-    bodies_lost: bool,
+    /// Arrays of tables and the elements that were changed; no element: one was taken out, or all.
+    changed: Vec<(String, Option<usize>)>,
 }
 
 impl Damage {
-    /// Whether an entry of the body was taken out or put in.
-    pub(crate) fn of_body(&self, idx: usize) -> bool {
-        self.bodies_lost || self.bodies.contains(&idx)
+    /// Whether an entry of the element of an array of tables was taken out or put in.
+    pub(crate) fn of(&self, array: &str, idx: usize) -> bool {
+        self.changed.iter().any(|(name, place)| name == array && place.is_none_or(|place| place == idx))
     }
 
     /// Whether the file may have a body of a name that the scene has not.
     pub(crate) fn of_names(&self, scene: &Scene) -> bool {
-        self.bodies_lost || scene.body.iter().any(|body| body.name.span() == PLACEHOLDER)
+        self.changed.iter().any(|(name, place)| name == "body" && place.is_none())
+            || scene.body.iter().any(|body| body.name.span() == PLACEHOLDER)
+    }
+
+    /// Whether the particles of the scene may not be those of the file.
+    pub(crate) fn of_particles(&self) -> bool {
+        self.changed.iter().any(|(name, _)| matches!(name.as_str(), "particle" | "chain" | "net"))
     }
 
     fn note(&mut self, path: &[Segment]) {
         match path {
-            [Segment::Key(key)] if key == "body" => self.bodies_lost = true,
-            [Segment::Key(key), Segment::Idx(idx), ..] if key == "body" => self.bodies.push(*idx),
+            [Segment::Key(key)] => self.changed.push((key.clone(), None)),
+            [Segment::Key(key), Segment::Idx(idx), ..] => self.changed.push((key.clone(), Some(*idx))),
             _ => {}
         }
     }
@@ -235,9 +241,12 @@ fn insert(
 /// A value of the right type for a required key, and one that no check takes for good.
 fn placeholder(key: &str) -> Option<DeValue<'static>> {
     let text = match key {
-        "duration_s" | "dt_s" | "angle_rad" | "base_m" | "height_m" | "k_kg_s" => "nan",
-        "name" | "body" | "file" => "''",
-        "axis" | "force_world_n" | "normal" | "size_m" => "[nan, nan, nan]",
+        "duration_s" | "angle_rad" | "base_m" | "height_m" | "k_kg_s" | "k_kg_m" | "mass_kg" | "stiffness_n_m"
+        | "constant_m3_kg_s2" | "constant_m3_s2" => "nan",
+        "particles" | "columns" | "rows" => "0",
+        "name" | "body" | "file" | "a" | "b" | "particle" => "''",
+        "axis" | "force_world_n" | "normal" | "size_m" | "from_m" | "to_m" | "column_step_m" | "row_step_m"
+        | "point_m" | "centre_m" | "direction" => "[nan, nan, nan]",
         "vertices_m" => "[[nan, nan, nan], [0, 0, 0], [0, 0, 0], [0, 0, 0]]",
         _ => return None,
     };

@@ -59,6 +59,7 @@ fn types(message: &str) -> Option<(&str, &str)> {
 fn plain_expected(expected: &str) -> String {
     match expected {
         "f64" => "a number".to_owned(),
+        "u32" => "a whole number from 0".to_owned(),
         "a sequence" => "a list".to_owned(),
         "a boolean" => "true or false".to_owned(),
         "string or map" | "newtype variant" => "a table of values".to_owned(),
@@ -120,7 +121,7 @@ fn wrong_type(found: &str, expected: &str, key: Option<&str>) -> Diagnostic {
     };
     let diagnostic = Diagnostic::new(message).label(format!("expected {expected}"));
     match key {
-        Some(list @ ("body" | "force")) if found == "a table" => {
+        Some(list @ ("body" | "particle" | "chain" | "net" | "force" | "constraint")) if found == "a table" => {
             diagnostic.help(format!("write [[{list}]] with two brackets: there can be several"))
         }
         Some("shape" | "orientation") => diagnostic.help(kinds(key)),
@@ -134,8 +135,12 @@ fn kinds(key: Option<&str>) -> &'static str {
         Some("shape") => "for example `shape.box.size_m = [1, 1, 1]`",
         Some("orientation") => "for example `orientation.rotor = [1, 0, 0, 0]`",
         Some("force") => {
-            "a [[force]] has either `at_point` or `linear_drag`, for example \
-                          `linear_drag = { body = \"cube\", k_kg_s = 0.1 }`"
+            "a [[force]] has one of `at_point`, `linear_drag`, `quadratic_drag`, `inverse_square`, \
+             `inverse_square_to_point`, `spring`, for example `linear_drag = { body = \"cube\", k_kg_s = 0.1 }`"
+        }
+        Some("constraint") => {
+            "a [[constraint]] has one of `distance`, `distance_to_point`, `on_plane`, `on_sphere`, `on_line`, `on_circle`, \
+             for example `distance = { a = \"one\", b = \"other\" }`"
         }
         _ => "write exactly one",
     }

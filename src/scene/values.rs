@@ -95,7 +95,7 @@ impl<'de> Deserialize<'de> for Vertices {
 }
 
 /// Reads a whole sequence and insists on its length.
-fn exactly<'de, A: SeqAccess<'de>, T: Deserialize<'de>, const N: usize>(
+pub(crate) fn exactly<'de, A: SeqAccess<'de>, T: Deserialize<'de>, const N: usize>(
     mut seq: A,
     what: &str,
 ) -> Result<[T; N], A::Error> {

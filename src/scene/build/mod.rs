@@ -1,4 +1,9 @@
-//! From a checked scene to bodies that can be simulated: shapes become meshes, meshes give mass and inertia.
+//! From a checked scene to what can be simulated: bodies, whose shapes become meshes, which give mass and inertia; and
+//! particles.
+
+mod particles;
+
+pub use particles::{Guide, ParticleLook, ParticleSetup};
 
 use crate::algebra::Real;
 use crate::algebra::cga::{Dilator, Point, Sphere};
@@ -33,14 +38,16 @@ pub struct Built<T> {
     pub setup: Setup<T>,
     /// How each body looks.
     pub looks: Vec<Look>,
+    /// The particles, if there are any.
+    pub particles: Option<ParticleSetup<T>>,
 }
 
 type Found<T> = Result<T, Diagnostic>;
 
-/// Builds all bodies and forces. Every body that cannot be built is reported, not only the first.
+/// Builds all bodies, particles and forces. Every body that cannot be built is reported, not only the first.
 ///
 /// # Errors
-/// What is wrong with meshes, shapes and inertias; bodies that overlap at the start.
+/// What is wrong with meshes, shapes and inertias; bodies that overlap at the start; values out of the range of `T`.
 pub fn build<T: Real>(scene: &Scene, source: &SceneSource) -> Result<Built<T>, Vec<Diagnostic>> {
     let mut setup = Setup {
         bodies: Bodies::default(),
@@ -59,7 +66,8 @@ pub fn build<T: Real>(scene: &Scene, source: &SceneSource) -> Result<Built<T>, V
     if mistakes.is_empty() {
         mistakes = overlaps(scene, &setup);
     }
-    if mistakes.is_empty() { Ok(Built { setup, looks }) } else { Err(mistakes) }
+    let particles = particles::build(scene).map_err(|mistake| mistakes.push(mistake)).ok().flatten();
+    if mistakes.is_empty() { Ok(Built { setup, looks, particles }) } else { Err(mistakes) }
 }
 
 fn overlaps<T: Real>(scene: &Scene, setup: &Setup<T>) -> Vec<Diagnostic> {
@@ -222,22 +230,20 @@ fn usable(mesh: &Mesh, span: &Range<usize>) -> Found<()> {
 fn forces<T: Real>(scene: &Scene) -> Forces<T> {
     let vector = |numbers: &toml::Spanned<Numbers<3>>| Vector::from(numbers.get_ref().0).map(T::from_f64);
     let number = |value: &toml::Spanned<f64>| *value.get_ref();
-    let forces = scene.force.iter().filter_map(|force| {
-        let body_idx = scene.body_idx(force.body().get_ref())?;
-        Some(match force {
-            description::Force::AtPoint(force) => Force::AtPoint {
-                body_idx,
-                at_body: vector(&force.at_body_m),
-                force_world: vector(&force.force_world_n),
-                start_s: number(&force.start_s),
-                end_s: force.end_s.as_ref().map_or(f64::INFINITY, number),
-            },
-            description::Force::LinearDrag(drag) => Force::LinearDrag {
-                body_idx,
-                k: T::from_f64(number(&drag.k_kg_s)),
-                k_angular: T::from_f64(number(&drag.k_angular_n_m_s)),
-            },
-        })
+    let forces = scene.force.iter().filter_map(|force| match force {
+        description::Force::AtPoint(force) => Some(Force::AtPoint {
+            body_idx: scene.body_idx(force.body.get_ref())?,
+            at_body: vector(&force.at_body_m),
+            force_world: vector(&force.force_world_n),
+            start_s: number(&force.start_s),
+            end_s: force.end_s.as_ref().map_or(f64::INFINITY, number),
+        }),
+        description::Force::LinearDrag(drag) => Some(Force::LinearDrag {
+            body_idx: scene.body_idx(drag.body.as_ref()?.get_ref())?,
+            k: T::from_f64(number(&drag.k_kg_s)),
+            k_angular: T::from_f64(number(&drag.k_angular_n_m_s)),
+        }),
+        _ => None,
     });
     Forces { gravity: vector(&scene.gravity_m_s2), forces: forces.collect() }
 }

@@ -1,0 +1,126 @@
+//! Mistakes in how the motion is solved: steps and tolerances.
+
+use toml::Spanned;
+
+use super::{Checker, MAX_STEPS};
+use crate::scene::description::{Method, Scalar, Scene};
+use crate::scene::diagnostic::Diagnostic;
+use crate::scene::particles;
+use crate::scene::plan;
+
+/// The most states that a run may record: a body's takes about 400 bytes in the record, the tables and the page
+/// together, so this is 2 GB. A particle's takes half of that, and counts as one half.
+const MAX_RECORDED: f64 = 5e6;
+
+/// The least relative tolerance, in epsilons of the scalar: below it the error estimate shows rounding. The longest of
+/// the methods, DOP853, adds 12 rates, each rounded on its own and again in the sum: 24 unit roundoffs, 12 epsilons, of
+/// a step. That must be well below what is tolerated.
+const RTOL_EPSILONS: f64 = 32.0;
+
+/// The least relative tolerance of a scalar.
+fn least_rtol(scalar: Scalar) -> f64 {
+    match scalar {
+        Scalar::F64 => RTOL_EPSILONS * f64::EPSILON,
+        Scalar::F32 => RTOL_EPSILONS * f64::from(f32::EPSILON),
+    }
+}
+
+impl Checker {
+    pub(super) fn solver(&mut self, scene: &Scene) {
+        let solver = &scene.solver;
+        if let Some(rtol) = &solver.rtol
+            && let Some(value) = self.positive("rtol", rtol, "1e-8 is a fair start")
+        {
+            let (least, scalar) = match solver.scalar {
+                Scalar::F64 => (least_rtol(Scalar::F64), "f64"),
+                Scalar::F32 => (least_rtol(Scalar::F32), "f32"),
+            };
+            if value < least {
+                let message = format!("`rtol` = {value:?} is below what {scalar} can give, {least:.1e}");
+                let diagnostic = Diagnostic::new(message).at(rtol.span()).label("below the rounding of a step");
+                let finer = if scalar == "f32" { ", or set `scalar = \"f64\"`" } else { "" };
+                self.report(diagnostic.help(format!("make it at least {least:.1e}{finer}")));
+            } else if value >= 1.0 {
+                let message = format!("`rtol` must be less than 1, not {value:?}");
+                let diagnostic = Diagnostic::new(message).at(rtol.span());
+                self.report(diagnostic.help("it is relative: 1e-8 is a fair start"));
+            }
+        }
+        if let Some(atol) = &solver.atol {
+            self.positive("atol", atol, "in m and m/s; where a coordinate is zero nothing else limits the error");
+        }
+        if let Some(substeps) = solver.substeps.as_ref().filter(|substeps| *substeps.get_ref() == 0) {
+            let diagnostic = Diagnostic::new("`substeps` must be at least 1, not 0").at(substeps.span());
+            self.report(diagnostic.help("20 is a fair start"));
+        }
+    }
+
+    pub(super) fn times(&mut self, scene: &Scene) {
+        let duration = self.positive("duration_s", &scene.duration_s, "how long the run lasts");
+        let dt = match &scene.dt_s {
+            Some(dt) => {
+                self.positive("dt_s", dt, "the time step; 0.01 is a fair start").map(|value| (value, dt.span()))
+            }
+            None => {
+                self.missing_step(scene);
+                None
+            }
+        };
+        if let Some(record_hz) = &scene.record_hz {
+            let help = "frames per second; leave it out to record every step";
+            self.positive("record_hz", record_hz, help);
+        }
+        let Some(duration) = duration else {
+            return;
+        };
+        let Some((dt, span)) = dt else {
+            return self.recorded(scene, duration, f64::INFINITY);
+        };
+        let steps = duration / dt;
+        if dt > duration {
+            let message = format!("`dt_s` = {dt:?} is longer than the run of {duration:?} s");
+            let diagnostic = Diagnostic::new(message).at(span).label("longer than `duration_s`");
+            self.report(diagnostic.help("make `dt_s` smaller or `duration_s` larger"));
+        } else if steps > MAX_STEPS {
+            let message = format!("the run would take {steps:.1e} steps, more than {MAX_STEPS:.0e}");
+            let diagnostic = Diagnostic::new(message).at(span).label("too small for `duration_s`");
+            let least = duration / MAX_STEPS;
+            self.report(diagnostic.help(format!("use a `dt_s` of at least {least:?}")));
+        } else {
+            self.recorded(scene, duration, steps);
+        }
+    }
+
+    /// A step may be left out where nothing is stepped by it.
+    fn missing_step(&mut self, scene: &Scene) {
+        let method = scene.solver.method.as_ref().filter(|method| !method.get_ref().is_adaptive());
+        if let (Some(method), true) = (method, scene.body.is_empty()) {
+            let name = method.get_ref().name();
+            let diagnostic = Diagnostic::new(format!("`{name}` makes steps of `dt_s`, and the scene has none"));
+            let adaptive = Method::Tsit5.name();
+            self.report(diagnostic.at(method.span()).help(format!(
+                "add `dt_s = ..` at the top, above the first [table], or use a method that chooses its steps, such as \
+                 `{adaptive}`"
+            )));
+        } else if !scene.body.is_empty() || particles::count(scene) == 0.0 {
+            let help = "add `dt_s = ..` at the top, above the first [table]";
+            self.report(Diagnostic::new("the scene has no `dt_s`").help(help));
+        }
+    }
+
+    /// Frames are held in memory until the run ends.
+    fn recorded(&mut self, scene: &Scene, duration: f64, steps: f64) {
+        let hz = plan::record_hz(scene).unwrap_or(f64::INFINITY);
+        #[expect(clippy::cast_precision_loss, reason = "a number of bodies")]
+        let bodies = scene.body.len() as f64;
+        let each = (bodies + particles::count(scene) / 2.0).max(1.0);
+        let frames = if plan::chooses_steps(scene) { duration * hz } else { steps.min(duration * hz) };
+        if frames * each > MAX_RECORDED {
+            let place = scene.record_hz.as_ref().or(scene.dt_s.as_ref()).unwrap_or(&scene.duration_s);
+            let (states, most) = (frames * each, MAX_RECORDED / each / duration);
+            let message = format!("the run would record {states:.1e} states, more than {MAX_RECORDED:.0e}");
+            let diagnostic = Diagnostic::new(message).at(Spanned::span(place)).label("too many to hold in memory");
+            self.report(diagnostic.help(format!("set `record_hz` to at most {most:.3}")));
+        }
+    }
+}
