@@ -75,16 +75,16 @@ impl Held {
         });
         let rows = Rows::new(start.len(), pattern);
         let method = match solver.linear {
-            LinearSolver::Direct => Method::Direct,
+            LinearSolver::Direct | LinearSolver::Sweeps => Method::Direct,
             LinearSolver::ConjugateGradients => Method::ConjugateGradients(Stop::tight(rows.len())),
         };
-        let held = !rows.is_empty();
+        let held = !rows.is_empty() && solver.linear != LinearSolver::Sweeps;
         Self {
             multipliers: held.then(|| Multipliers::new(&rows, inv_mass.as_slice(), method)),
             lambda: vec![0.0; rows.len()],
             right_side: vec![0.0; rows.len()],
             frozen_at: Vec::with_capacity(start.len()),
-            violation_m: solver.violation_m,
+            violation_m: solver.violation * shortest(&setup.constraints),
             redundant: 0,
             scratch: Scratch::default(),
             inv_mass,
@@ -153,14 +153,24 @@ impl Held {
         constraints: &[Constraint],
         state: &mut Particles<T>,
     ) -> Result<(), ProjectionError> {
-        let tolerance_m = self.tolerance(&state.position);
-        let Self { multipliers: Some(multipliers), rows, inv_mass, scratch, .. } = self else {
-            return Ok(());
-        };
-        let mut positions = Positions { constraints, position: &mut state.position, scratch };
-        self.frozen_at.clear();
-        multipliers.project(rows, inv_mass.as_slice(), &mut positions, tolerance_m)?;
+        self.project_positions(constraints, &mut state.position)?;
         Ok(self.project_velocities(constraints, state)?)
+    }
+
+    /// Positions onto `C = 0`; how far each moved, m.
+    pub(super) fn project_positions(
+        &mut self,
+        constraints: &[Constraint],
+        position: &mut [Point<f64>],
+    ) -> Result<&[[f64; D]], ProjectionError> {
+        let tolerance_m = self.tolerance(position);
+        self.frozen_at.clear();
+        let Self { multipliers: Some(multipliers), rows, inv_mass, scratch, .. } = self else {
+            return Ok(&[]);
+        };
+        let mut positions = Positions { constraints, position, scratch };
+        multipliers.project(rows, inv_mass.as_slice(), &mut positions, tolerance_m)?;
+        Ok(multipliers.displacement())
     }
 
     /// Velocities onto `dC/dt = 0`.
@@ -207,4 +217,13 @@ impl Held {
         let farthest = position.iter().fold(0.0, |most: f64, p| most.max(p.x.abs()).max(p.y.abs()).max(p.z.abs()));
         self.violation_m.max(ROUNDING_EPS * f64::EPSILON * farthest)
     }
+}
+
+/// The shortest length that is held, m; 1 where none is.
+fn shortest(constraints: &[Constraint]) -> f64 {
+    let lengths = constraints.iter().filter_map(|constraint| match constraint {
+        Constraint::Distance { length, .. } | Constraint::ToPoint { length, .. } => Some(*length),
+        Constraint::On { .. } | Constraint::Own(_) => None,
+    });
+    lengths.reduce(f64::min).unwrap_or(1.0)
 }

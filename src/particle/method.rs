@@ -90,6 +90,8 @@ pub enum Steps {
 /// How the multipliers are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LinearSolver {
+    /// Not at all: sweeps over the constraints, one by one. For XPBD only.
+    Sweeps,
     /// Sparse factorisation.
     Direct,
     /// Preconditioned, from the last multipliers on.
@@ -121,8 +123,8 @@ pub struct Solver {
     pub linear: LinearSolver,
     /// Stabilisation, of methods that need one: Verlet and its compositions project by themselves.
     pub stabilisation: Stabilisation,
-    /// The largest violation that projection leaves, m.
-    pub violation_m: f64,
-    /// XPBD only: substeps a step.
-    pub substeps: u32,
+    /// The largest violation that is left, relative to the shortest length that is held (to 1 m where none is).
+    pub violation: f64,
+    /// XPBD only: substeps a step. None: as many as hold the violation at rest.
+    pub substeps: Option<usize>,
 }

@@ -9,6 +9,7 @@
 
 mod constraint;
 mod energy;
+mod fast;
 mod force;
 mod held;
 mod method;

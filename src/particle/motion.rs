@@ -1,11 +1,12 @@
 //! Particles in motion: a system with the stepper that was chosen for it.
 
-use super::{Method, MotionError, Particles, Rates, Setup, Solver, Steps, System, Totals};
+use super::xpbd::XpbdError;
+use super::{LinearSolver, Method, MotionError, Particles, Rates, Setup, Solver, Steps, System, Totals};
 use crate::algebra::Real;
 use crate::algebra::g3::Vector;
 use crate::ode::{
-    Adaptive, CashKarp, Composition, Dop853, Euler, Fixed, OdeError, Rk4, Rk4Doubling, StepError, Stepper, Symplectic,
-    Tolerance, ToleranceError, Tsit5, Work,
+    Adaptive, CashKarp, Composition, Dop853, Euler, Fixed, Leaps, OdeError, Rk4, Rk4Doubling, StepError, Stepper,
+    Symplectic, Tolerance, ToleranceError, Tsit5, Work,
 };
 use alloc::boxed::Box;
 use alloc::vec;
@@ -21,6 +22,12 @@ pub enum SolverError {
     /// The tolerance.
     #[error(transparent)]
     Tolerance(#[from] ToleranceError),
+    /// Constraints that cannot be swept over.
+    #[error(transparent)]
+    Sweeps(#[from] XpbdError),
+    /// Sweeps, but not XPBD.
+    #[error("`{}` needs multipliers, not sweeps: choose `direct` or `conjugate_gradients`", .0.name())]
+    NeedsMultipliers(Method),
     /// Error control without an error estimate.
     #[error("`{}` does not estimate its error and needs a fixed step", .0.name())]
     NotAdaptive(Method),
@@ -42,7 +49,10 @@ impl<T: Real> Motion<T> {
     /// # Errors
     /// A solver that cannot be used.
     pub fn new(setup: Setup<T>, start: Particles<T>, solver: &Solver) -> Result<Self, SolverError> {
-        let system = System::new(setup, &start, solver);
+        if solver.linear == LinearSolver::Sweeps && solver.method != Method::Xpbd {
+            return Err(SolverError::NeedsMultipliers(solver.method));
+        }
+        let system = System::new(setup, &start, solver)?;
         let stepper = stepper(&start, solver)?;
         Ok(Self { system, stepper, state: start, time_s: 0.0 })
     }
@@ -121,7 +131,7 @@ fn stepper<T: Real>(start: &Particles<T>, solver: &Solver) -> Result<Step<T>, So
             Method::Verlet => Box::new(split(Composition::Verlet, dt_s)?),
             Method::Yoshida4 => Box::new(split(Composition::Yoshida4, dt_s)?),
             Method::Yoshida6 => Box::new(split(Composition::Yoshida6, dt_s)?),
-            Method::Xpbd => Box::new(split(Composition::Verlet, dt_s)?),
+            Method::Xpbd => Box::new(Leaps::new(0.0, start.clone(), dt_s)?),
         },
         Steps::Adaptive { tolerance } => {
             let tolerance = Tolerance { rtol: T::from_f64(tolerance.rtol), atol: T::from_f64(tolerance.atol) };

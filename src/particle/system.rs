@@ -8,9 +8,11 @@
 //! constraints after each step. Verlet's method becomes RATTLE (Andersen 1983): its drift holds `C = 0` by multipliers along
 //! the gradients at its start.
 
+use super::fast::Fast;
 use super::held::Held;
 use super::own::Scratch;
-use super::{Constraint, Force, Masses, Particles, Rates, Solver, Stabilisation, Totals, totals};
+use super::xpbd::XpbdError;
+use super::{Constraint, Force, Masses, Method, Particles, Rates, Solver, Stabilisation, Totals, totals};
 use crate::algebra::Real;
 use crate::algebra::g3::Vector;
 use crate::constraint::{ProjectionError, SolveError};
@@ -57,8 +59,10 @@ pub struct Setup<T> {
 /// Particles, forces and constraints as a right-hand side.
 #[derive(Clone, Debug)]
 pub struct System<T: Real> {
-    setup: Setup<T>,
-    held: Held,
+    pub(super) setup: Setup<T>,
+    pub(super) held: Held,
+    pub(super) fast: Option<Fast<T>>,
+    pub(super) acceleration: Vec<Vector<T>>,
     stabilisation: Stabilisation,
     /// The start of a drift.
     before: Particles<T>,
@@ -67,10 +71,20 @@ pub struct System<T: Real> {
 
 impl<T: Real> System<T> {
     /// The system of a setup, solved as said.
-    #[must_use]
-    pub fn new(setup: Setup<T>, start: &Particles<T>, solver: &Solver) -> Self {
-        let held = Held::new(&setup, start, solver);
-        Self { setup, held, stabilisation: solver.stabilisation, before: start.clone(), scratch: Scratch::default() }
+    ///
+    /// # Errors
+    /// Constraints that sweeps cannot be made over.
+    pub fn new(setup: Setup<T>, start: &Particles<T>, solver: &Solver) -> Result<Self, XpbdError> {
+        let fast = (solver.method == Method::Xpbd).then(|| Fast::new(&setup, start, solver)).transpose()?;
+        Ok(Self {
+            held: Held::new(&setup, start, solver),
+            fast,
+            acceleration: Vec::new(),
+            stabilisation: solver.stabilisation,
+            before: start.clone(),
+            scratch: Scratch::default(),
+            setup,
+        })
     }
 
     /// Masses, forces, constraints.
@@ -99,7 +113,7 @@ impl<T: Real> System<T> {
     }
 
     /// Accelerations by forces alone.
-    fn free(&mut self, t_s: f64, state: &Particles<T>, acceleration: &mut [Vector<T>]) {
+    pub(super) fn free(&mut self, t_s: f64, state: &Particles<T>, acceleration: &mut [Vector<T>]) {
         acceleration.fill(Vector::default());
         for force in &self.setup.forces {
             force.accelerate(t_s, state, &self.setup.masses, acceleration, &mut self.scratch);
