@@ -234,6 +234,18 @@ impl<const D: usize> Direct<D> {
         Ok(Solved { converged: true, iterations: refinements })
     }
 
+    /// `A lambda = b` to the digits that the factor has: for a step of Newton's method, which is checked by where it leads.
+    ///
+    /// # Errors
+    /// A right-hand side that is not finite.
+    pub(super) fn solve_roughly(&mut self, b: &[f64], lambda: &mut [f64]) -> Result<(), SolveError> {
+        self.substitute(b, lambda);
+        match lambda.iter().position(|x| !x.is_finite()) {
+            Some(row) => Err(SolveError::NotFinite { row }),
+            None => Ok(()),
+        }
+    }
+
     /// The same without a look at the dropped rows: whatever they ask for is left. The refinements that it took.
     pub(super) fn solve_leaving(
         &mut self,
@@ -242,15 +254,8 @@ impl<const D: usize> Direct<D> {
         b: &[f64],
         lambda: &mut [f64],
     ) -> Result<u32, SolveError> {
-        self.substitute(b, lambda);
-        let mut refinements = 0;
-        if self.weakest < LOSS_TO_REFINE {
-            refinements = self.refine(rows, inverse_mass, b, lambda);
-        }
-        if let Some(row) = lambda.iter().position(|x| !x.is_finite()) {
-            return Err(SolveError::NotFinite { row });
-        }
-        Ok(refinements)
+        self.solve_roughly(b, lambda)?;
+        Ok(if self.weakest < LOSS_TO_REFINE { self.refine(rows, inverse_mass, b, lambda) } else { 0 })
     }
 
     /// As long as the corrections shrink and are more than rounding.

@@ -130,32 +130,40 @@ impl<const D: usize> Multipliers<D> {
         inverse_mass: &(impl InverseMass<D> + ?Sized),
         velocity: impl Fn(usize) -> [f64; D],
     ) -> Result<&[[f64; D]], SolveError> {
-        let mut speed = core::mem::take(&mut self.speed);
+        let (mut speed, mut lambda) = (core::mem::take(&mut self.speed), core::mem::take(&mut self.lambda));
         self.frozen.times(velocity, &mut speed);
-        let outcome = self.correct(inverse_mass, &speed);
-        self.speed = speed;
-        outcome.map(|()| self.step.as_slice())
+        lambda.fill(0.0);
+        let outcome = self.solve_leaving(inverse_mass, &speed, &mut lambda);
+        (self.speed, self.lambda) = (speed, lambda);
+        outcome?;
+        self.respond(inverse_mass);
+        Ok(&self.step)
     }
 
-    /// `step = -W J^T A^-1 b` at the frozen gradients.
-    pub(super) fn correct(
+    /// `step = -W J^T A^-1 b` at the frozen gradients, to a few digits: a step of Newton's method.
+    pub(super) fn newton_step(
         &mut self,
         inverse_mass: &(impl InverseMass<D> + ?Sized),
         b: &[f64],
     ) -> Result<(), SolveError> {
-        let Self { solver, frozen, lambda, step, .. } = self;
+        let Self { solver, frozen, lambda, .. } = self;
         match solver {
-            // What dropped rows ask for may differ within the tolerance of positions: that they hold is checked on them.
-            Solver::Direct(solver) => solver.solve_leaving(frozen, inverse_mass, b, lambda)?,
+            Solver::Direct(solver) => solver.solve_roughly(b, lambda)?,
             Solver::ConjugateGradients(solver) => {
                 lambda.fill(0.0);
-                solver.solve(frozen, inverse_mass, b, lambda)?.iterations
+                solver.solve(frozen, inverse_mass, b, lambda).map(drop)?;
             }
-        };
+        }
+        self.respond(inverse_mass);
+        Ok(())
+    }
+
+    /// `step = -W J^T lambda`.
+    fn respond(&mut self, inverse_mass: &(impl InverseMass<D> + ?Sized)) {
+        let Self { frozen, lambda, step, .. } = self;
         frozen.response(inverse_mass, lambda, step);
         for step in step {
             *step = step.map(|x| -x);
         }
-        Ok(())
     }
 }

@@ -169,7 +169,7 @@ impl<const D: usize> Multipliers<D> {
                 factorisations += 1;
             }
             let fresh = stale && may_freeze;
-            self.correct(inverse_mass, rows.values())?;
+            self.newton_step(inverse_mass, rows.values())?;
             let (tried, found) = self.descend(rows, configuration, violation_m)?;
             evaluations += tried;
             match found {
