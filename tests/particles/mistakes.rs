@@ -1,0 +1,68 @@
+//! What cannot be simulated says so, by name.
+
+use crate::cases::{adaptive, chain, fixed, masses, particles, start, weight};
+use ga_physics::constraint::ProjectionError;
+use ga_physics::ode::{OdeError, StepError, ToleranceError};
+use ga_physics::particle::{Constraint, Force, LinearSolver, Method, Motion, MotionError, Setup, Solver, SolverError};
+
+#[test]
+fn a_solver_that_cannot_be_used_is_refused() {
+    let refused = |solver: &Solver| {
+        let (state, setup) = chain(1, 0.5);
+        Motion::new(setup, state, solver).err().unwrap()
+    };
+    assert_eq!(refused(&adaptive(Method::Verlet, 1e-6)), SolverError::NotAdaptive(Method::Verlet));
+    assert!(matches!(
+        refused(&adaptive(Method::Dop853, 1e-16)),
+        SolverError::Tolerance(ToleranceError::Relative { .. })
+    ));
+    assert_eq!(refused(&fixed(Method::Rk4, -0.1)), SolverError::Step(StepError { step_s: -0.1 }));
+    let sweeps = Solver { linear: LinearSolver::Sweeps, ..fixed(Method::Rk4, 0.1) };
+    assert_eq!(refused(&sweeps), SolverError::NeedsMultipliers(Method::Rk4));
+}
+
+#[test]
+fn constraints_that_contradict_each_other_end_the_run_by_name() {
+    for method in [Method::Rk4, Method::Dop853, Method::Verlet, Method::Xpbd] {
+        let (state, mut setup) = chain(2, 0.5);
+        setup.constraints.push(Constraint::Distance { a: 0, b: 1, length: 1.1 });
+        let mut motion = start((state, setup), &fixed(method, 1e-2));
+        let error = motion.advance_to(1.0).unwrap_err();
+        let OdeError::System(MotionError::Projection {
+            source: ProjectionError::NotConverged { violation_m, .. }, ..
+        }) = error
+        else {
+            panic!("{method:?}: {error}");
+        };
+        assert!(violation_m > 1e-2, "{violation_m}");
+        assert!(motion.state().position.iter().all(|x| x.x.is_finite() && x.z.is_finite()));
+    }
+}
+
+#[test]
+fn a_meeting_without_softening_is_told_when_it_happens() {
+    let attraction = Force::InverseSquare { constant: 1.0, softening: 0.0 };
+    let setup = Setup { masses: masses(vec![1.0, 1.0], &[]), forces: vec![attraction], constraints: vec![] };
+    let mut motion = start((particles(&[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]), setup), &adaptive(Method::Dop853, 1e-9));
+    let error = motion.advance_to(10.0).unwrap_err();
+    let OdeError::StepTooSmall { time_s, .. } = error else { panic!("{error}") };
+    // Free fall of two masses of 1 from rest at distance 2: pi/2 sqrt(r³ / (2 C M)) with M = 2.
+    let expected_s = std::f64::consts::FRAC_PI_2 * (8.0_f64 / 4.0).sqrt();
+    assert!((time_s - expected_s).abs() < 1e-3, "{time_s} {expected_s}");
+    assert_eq!(motion.time_s(), time_s);
+    assert!(motion.state().position.iter().all(|x| x.x.is_finite()));
+}
+
+#[test]
+fn steps_that_overflow_are_told() {
+    let setup = Setup {
+        masses: masses(vec![1e-9], &[]),
+        forces: vec![weight(), Force::QuadraticDrag { particle: None, k: 1e6 }],
+        constraints: vec![],
+    };
+    let mut state = particles(&[[0.0; 3]]);
+    state.velocity[0].e1 = 10.0;
+    let mut motion = start((state, setup), &fixed(Method::Rk4, 0.1));
+    let error = motion.advance_to(100.0).unwrap_err();
+    assert!(matches!(error, OdeError::NotFinite { .. }), "{error}");
+}
