@@ -30,6 +30,7 @@ fn valid(root: &Value, schema: &Value, value: &Value) -> bool {
                 "object" => value.is_object(),
                 "array" => value.is_array(),
                 "number" => value.is_number(),
+                "integer" => value.is_i64() || value.is_u64(),
                 "string" => value.is_string(),
                 "boolean" => value.is_boolean(),
                 other => panic!("unknown type {other}"),

@@ -27,7 +27,7 @@ pub const MAX_STEPS: f64 = 1e9;
 /// All mistakes in `scene`, in no particular order.
 pub(crate) fn check(scene: &Scene, source: &SceneSource, damage: &Damage) -> Vec<Diagnostic> {
     let mut checker = Checker { found: Vec::new() };
-    checker.times(scene);
+    checker.times(scene, damage);
     checker.solver(scene);
     checker.finite("gravity_m_s2", &scene.gravity_m_s2);
     checker.restitution(&scene.contact.restitution);

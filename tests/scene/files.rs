@@ -17,7 +17,20 @@ fn every_shipped_scene_loads() {
             path.file_stem().unwrap().to_string_lossy().into_owned()
         })
         .collect();
-    for name in ["cube-and-pyramid", "free-collision", "mesh-drop", "tennis-racket"] {
+    for name in [
+        "bead-on-circle",
+        "chain",
+        "cube-and-pyramid",
+        "double-pendulum",
+        "free-collision",
+        "mesh-drop",
+        "orbit",
+        "particle-net",
+        "pendulum",
+        "projectile-drag",
+        "tennis-racket",
+        "three-bodies",
+    ] {
         assert!(names.iter().any(|found| found == name), "{name} is not among {names:?}");
     }
 }

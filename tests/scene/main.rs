@@ -9,6 +9,8 @@ mod damage;
 mod files;
 mod messages;
 mod overrides;
+mod particle_messages;
+mod particles;
 mod values;
 
 use std::fs;

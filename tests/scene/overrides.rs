@@ -57,7 +57,7 @@ fn overrides_change_what_their_path_names() {
             "body.ground.position_m=[0, 0, -1]",
         ],
     );
-    assert_eq!(*scene.dt_s.get_ref(), 0.001);
+    assert_eq!(*scene.dt_s.as_ref().unwrap().get_ref(), 0.001);
     assert_eq!(*scene.contact.restitution.get_ref(), 0.5);
     assert_eq!(scene.solver.scalar, Scalar::F32);
     assert_eq!(scene.gravity_m_s2.get_ref().0, [0.0; 3]);
@@ -74,7 +74,7 @@ fn overrides_change_what_their_path_names() {
 #[test]
 fn the_last_override_of_a_value_wins() {
     let scene = accepted(&with_floor(), &["dt_s=0.5", "dt_s=0.25"]);
-    assert_eq!(*scene.dt_s.get_ref(), 0.25);
+    assert_eq!(*scene.dt_s.as_ref().unwrap().get_ref(), 0.25);
 }
 
 #[test]
@@ -89,14 +89,14 @@ fn an_override_may_choose_another_kind() {
 fn an_override_mends_a_mistake_in_the_file() {
     let text = format!("duration_s = 1\ndt_s = -1\n{CUBE}");
     assert!(read(&text, &[]).is_err());
-    assert_eq!(*accepted(&text, &["dt_s=0.5"]).dt_s.get_ref(), 0.5);
+    assert_eq!(*accepted(&text, &["dt_s=0.5"]).dt_s.unwrap().get_ref(), 0.5);
 }
 
 #[test]
 fn spans_lead_back_to_the_text_of_file_and_overrides() {
     let (scene, source) = read(&with_floor(), &["duration_s=2", "body.cube.mass_kg= 7.5 "]).unwrap();
     let cube = &scene.body[0];
-    assert_eq!(source.written(scene.dt_s.span()), "0.01");
+    assert_eq!(source.written(scene.dt_s.as_ref().unwrap().span()), "0.01");
     assert_eq!(source.written(scene.duration_s.span()), "2");
     assert_eq!(source.written(cube.mass_kg.as_ref().unwrap().span()), "7.5");
     assert_eq!(source.written(cube.name.span()), "\"cube\"");

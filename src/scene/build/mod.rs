@@ -42,6 +42,14 @@ pub struct Built<T> {
     pub particles: Option<ParticleSetup<T>>,
 }
 
+impl<T> Built<T> {
+    /// The number of particles.
+    #[must_use]
+    pub fn particle_count(&self) -> usize {
+        self.particles.as_ref().map_or(0, |particles| particles.names.len())
+    }
+}
+
 type Found<T> = Result<T, Diagnostic>;
 
 /// Builds all bodies, particles and forces. Every body that cannot be built is reported, not only the first.

@@ -87,7 +87,8 @@ impl Checker {
         let lists = self.finite("column_step_m", &net.column_step_m) & self.finite("row_step_m", &net.row_step_m);
         let folds = self.fold("fold_rad", &net.fold_rad) & self.fold("row_fold_rad", &net.row_fold_rad);
         let fixed = columns && rows && self.net_fixed(net);
-        if lists && folds && columns && rows && self.net_steps(net) && fixed {
+        let few = f64::from(*net.columns.get_ref()) * f64::from(*net.rows.get_ref()) <= MAX_PARTICLES;
+        if lists && folds && columns && rows && self.net_steps(net) && fixed && few {
             self.taut_net(net);
         }
     }
@@ -184,12 +185,15 @@ impl Checker {
 
     fn taken_names(&mut self, scene: &Scene, roster: &Roster) {
         let bodies: HashSet<&str> = scene.body.iter().map(|body| body.name.get_ref().as_str()).collect();
-        for (index, group) in roster.groups.iter().enumerate() {
-            let name = &group.name;
-            if name.trim().is_empty() || !(roster.taken.contains(&index) || bodies.contains(name.as_str())) {
+        let of_bodies = roster.groups.iter().enumerate().filter(|(_, group)| bodies.contains(group.name.as_str()));
+        let of_bodies = of_bodies.map(|(index, group)| (index, group.name.clone()));
+        for (index, name) in roster.taken.iter().cloned().chain(of_bodies) {
+            // An empty name is a mistake of its own.
+            if name.trim().is_empty() {
                 continue;
             }
-            let diagnostic = Diagnostic::new(format!("the name `{name}` is taken")).at(group.named_at.clone());
+            let place = roster.groups[index].named_at.clone();
+            let diagnostic = Diagnostic::new(format!("the name `{name}` is taken")).at(place);
             let diagnostic = diagnostic.label("by an earlier body, particle, chain or net");
             self.report(diagnostic.help("forces, constraints and outputs refer to them by name"));
         }

@@ -7,6 +7,7 @@ use crate::scene::description::{Method, Scalar, Scene};
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::particles;
 use crate::scene::plan;
+use crate::scene::read::Damage;
 
 /// The most states that a run may record: a body's takes about 400 bytes in the record, the tables and the page
 /// together, so this is 2 GB. A particle's takes half of that, and counts as one half.
@@ -36,6 +37,9 @@ impl Checker {
                 Scalar::F32 => (least_rtol(Scalar::F32), "f32"),
             };
             if value < least {
+                // Rounded up, so that what the message names is enough.
+                let digit = 10_f64.powf(least.log10().floor() - 1.0);
+                let least = (least / digit).ceil() * digit;
                 let message = format!("`rtol` = {value:?} is below what {scalar} can give, {least:.1e}");
                 let diagnostic = Diagnostic::new(message).at(rtol.span()).label("below the rounding of a step");
                 let finer = if scalar == "f32" { ", or set `scalar = \"f64\"`" } else { "" };
@@ -55,14 +59,16 @@ impl Checker {
         }
     }
 
-    pub(super) fn times(&mut self, scene: &Scene) {
+    pub(super) fn times(&mut self, scene: &Scene, damage: &Damage) {
         let duration = self.positive("duration_s", &scene.duration_s, "how long the run lasts");
         let dt = match &scene.dt_s {
             Some(dt) => {
                 self.positive("dt_s", dt, "the time step; 0.01 is a fair start").map(|value| (value, dt.span()))
             }
             None => {
-                self.missing_step(scene);
+                if !damage.of("dt_s", 0) {
+                    self.missing_step(scene);
+                }
                 None
             }
         };
@@ -74,7 +80,10 @@ impl Checker {
             return;
         };
         let Some((dt, span)) = dt else {
-            return self.recorded(scene, duration, f64::INFINITY);
+            if scene.dt_s.is_none() && plan::chooses_steps(scene) {
+                self.recorded(scene, duration, f64::INFINITY);
+            }
+            return;
         };
         let steps = duration / dt;
         if dt > duration {

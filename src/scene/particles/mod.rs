@@ -33,8 +33,8 @@ pub(crate) struct Roster {
     pub(crate) groups: Vec<Group>,
     /// By the names of particles and groups.
     known: HashMap<String, Range<usize>>,
-    /// The groups whose name, or that of one of their particles, is taken by an earlier one.
-    pub(crate) taken: Vec<usize>,
+    /// Groups, and the names of them or their particles that were taken before.
+    pub(crate) taken: Vec<(usize, String)>,
 }
 
 /// A [[particle]], [[chain]] or [[net]].
@@ -98,15 +98,15 @@ impl Roster {
     /// Makes the particles since `begin` a group.
     fn close(&mut self, begin: usize, name: &str, named_at: Range<usize>, placed_at: Range<usize>, many: bool) {
         let range = begin..self.names.len();
-        let mut free = self.known.insert(name.to_owned(), range.clone()).is_none();
+        let mut taken = self.known.insert(name.to_owned(), range.clone()).map(|_| name.to_owned());
         if many {
             for index in range.clone() {
-                free &= self.known.insert(self.names[index].clone(), index..index + 1).is_none();
+                let name = &self.names[index];
+                let known = self.known.insert(name.clone(), index..index + 1);
+                taken = taken.or(known.map(|_| name.clone()));
             }
         }
-        if !free {
-            self.taken.push(self.groups.len());
-        }
+        self.taken.extend(taken.map(|name| (self.groups.len(), name)));
         self.groups.push(Group { name: name.to_owned(), range, named_at, placed_at, many });
     }
 
