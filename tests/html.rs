@@ -8,7 +8,7 @@
 mod sample;
 
 use base64::{Engine as _, engine::general_purpose::STANDARD as BASE64};
-use ga_physics::io::html::{BodyView, EnergySample, Mark, Playback, Shape, render};
+use ga_physics::io::html::{BodyView, EnergySample, Guide, Mark, ParticlesView, Playback, Shape, render};
 use serde_json::Value;
 
 const HOSTILE: [&str; 9] = [
@@ -58,6 +58,14 @@ fn hostile(name: &str) -> Playback<'_> {
         bodies: vec![BodyView { name: name.to_owned(), fixed: false, shape: sample::cube(1.0) }],
         times_s: vec![0.0],
         poses: vec![vec![[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]],
+        particles: ParticlesView {
+            names: vec![name.to_owned()],
+            groups: vec![(name.to_owned(), 1)],
+            fixed: vec![false],
+            masses: vec![1.0],
+            positions: vec![vec![[0.0; 3]]],
+            ..ParticlesView::default()
+        },
         marks: vec![Mark {
             time_s: 0.0,
             a: name.to_owned(),
@@ -82,6 +90,8 @@ fn a_hostile_name_adds_no_markup_and_comes_back_unchanged() {
         let index = index(&page);
         assert_eq!(index["scene"], name);
         assert_eq!(index["bodies"][0]["name"], name);
+        assert_eq!(index["particles"]["names"][0], name);
+        assert_eq!(index["particles"]["groups"][0][0], name);
         assert_eq!(index["names"], serde_json::json!([name]));
     }
 }
@@ -95,10 +105,11 @@ fn the_title_shows_a_hostile_scene_name_as_text() {
 #[test]
 fn every_placeholder_is_filled() {
     let page = render(&sample::tumbling("sample", [0.0; 3]));
-    for name in ["title", "style", "script", "index", "times", "poses", "energy", "marks", "mark_names"] {
+    for name in ["title", "style", "script", "index", "times", "poses", "points", "energy", "marks", "mark_names"] {
         assert!(!page.contains(&format!("{{{{{name}}}}}")), "{name} was left in the page");
     }
-    for id in ["ga-times", "ga-poses", "ga-energy", "ga-marks", "ga-mark-names"] {
+    let page = render(&sample::pendulums("sample", 3, [0.0; 3]));
+    for id in ["ga-times", "ga-points", "ga-energy"] {
         assert!(!block(&page, id).is_empty(), "{id} is empty");
     }
 }
@@ -169,6 +180,7 @@ fn the_centre_is_that_of_the_moving_bodies() {
         bodies: vec![body(true), body(false)],
         times_s: vec![0.0, 1.0],
         poses: vec![vec![at(-1e9), at(2.0)], vec![at(-1e9), at(f64::NAN)]],
+        particles: ParticlesView::default(),
         marks: vec![],
         energy: vec![],
     };
@@ -186,6 +198,65 @@ fn a_missing_pose_is_nan_and_an_extra_one_is_dropped() {
     assert!(stored[..7].iter().all(|x| x.is_nan()));
     assert_eq!(stored[7..14], [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
     assert!(stored[14..].iter().all(|x| x.is_nan()));
+}
+
+#[test]
+fn positions_of_particles_come_back_relative_to_the_centre_and_what_is_missing_is_nan() {
+    let mut playback = sample::pendulums("sample", 3, [1e6, -1e6, 1e6]);
+    playback.particles.positions[1].truncate(2);
+    let page = render(&playback);
+    let index = index(&page);
+    let centre: Vec<f64> = index["centre"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+    let stored = f32s(block(&page, "ga-points"));
+    assert_eq!(stored.len(), playback.times_s.len() * 3 * 3);
+    for (frame, positions) in playback.particles.positions.iter().enumerate() {
+        for (particle, position) in positions.iter().enumerate() {
+            let at = 3 * (3 * frame + particle);
+            for k in 0..3 {
+                // The centre as serde_json reads it may be an ulp of 1e6 off.
+                let expected = position[k] - centre[k];
+                assert!(
+                    (f64::from(stored[at + k]) - expected).abs() < 1e-9 + 1e-7 * expected.abs(),
+                    "{frame} {particle}"
+                );
+            }
+        }
+    }
+    assert!(stored[3 * 5..3 * 6].iter().all(|x| x.is_nan()), "the third particle of the second frame");
+}
+
+#[test]
+fn what_ties_particles_together_comes_back() {
+    let mut playback = sample::pendulums("sample", 4, [0.0; 3]);
+    playback.particles.masses = vec![8.0, 1.0, 0.0, f64::NAN];
+    playback.particles.fixed = vec![false, true, false, true];
+    playback.particles.springs = vec![[3, 1]];
+    playback.particles.guides.push(Guide::Circle { centre: [1.0, 2.0, 3.0], radius: 4.0, normal: [0.0, 0.0, 2.0] });
+    let page = render(&playback);
+    let particles = index(&page)["particles"].clone();
+    let numbers = |key: &str| u32s(particles[key].as_str().unwrap());
+    assert_eq!(numbers("links"), [0, 1, 1, 2, 2, 3]);
+    assert_eq!(numbers("springs"), [3, 1]);
+    assert_eq!(numbers("tethered"), [0]);
+    assert_eq!(numbers("fixed"), [1, 3]);
+    assert_eq!(f32s(particles["sizes"].as_str().unwrap()), [1.0, 0.5, 0.0, 0.0], "by the cube root of the mass");
+    assert_eq!(particles["groups"], serde_json::json!([["first", 1], ["others", 3]]));
+    let guides = particles["guides"].as_array().unwrap();
+    assert_eq!(guides.last().unwrap()["circle"]["radius"], 4.0);
+    let centre = index(&page)["centre"][0].as_f64().unwrap();
+    assert_eq!(guides.last().unwrap()["circle"]["centre"][0].as_f64().unwrap(), 1.0 - centre);
+}
+
+#[test]
+fn the_centre_counts_particles_that_move() {
+    let mut playback = sample::pendulums("sample", 1, [0.0; 3]);
+    playback.particles.positions = vec![vec![[5.0, 6.0, 7.0]]; playback.times_s.len()];
+    assert_eq!(index(&render(&playback))["centre"], serde_json::json!([5.0, 6.0, 7.0]));
+    // Beside a body that moves, one that is fixed does not count.
+    playback.particles.fixed = vec![true];
+    playback.bodies = vec![BodyView { name: String::new(), fixed: false, shape: sample::cube(1.0) }];
+    playback.poses = vec![vec![[1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0]]; playback.times_s.len()];
+    assert_eq!(index(&render(&playback))["centre"], serde_json::json!([1.0, 2.0, 3.0]));
 }
 
 #[test]
@@ -266,6 +337,7 @@ fn write_samples() {
     single.times_s.truncate(1);
     single.poses.truncate(1);
     single.bodies.remove(0);
+    single.particles = ParticlesView::default();
     single.poses[0].remove(0);
     single.marks.clear();
     single.energy.clear();
@@ -294,6 +366,9 @@ fn write_samples() {
         ("names", names),
         ("broken", broken),
         ("crowd", sample::crowd("three hundred bodies", 300)),
+        ("pendulums", sample::pendulums("pendulums of all lengths", 12, [1e5, 0.0, 0.0])),
+        ("sheet", sample::sheet("ten thousand particles", 100)),
+        ("guides", sample::guides("what particles stay on")),
     ] {
         let path = folder.join(format!("{file}.html"));
         std::fs::write(&path, render(&playback)).unwrap();

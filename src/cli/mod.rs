@@ -3,6 +3,7 @@
 //! 0: done. 1: the run failed (what, when, what is kept). 2: the user's input is wrong.
 
 pub mod mesh;
+mod playback;
 mod run;
 
 use crate::io::files::WriteError;
@@ -167,11 +168,12 @@ fn print_plan(path: &Path, sets: &[String], json: bool) -> Result<(), Failure> {
 fn check(path: &Path, sets: &[String]) -> Result<(), Failure> {
     let (scene, source) = scene::load(path, sets).map_err(Failure::rejected)?;
     let built = match scene.solver.scalar {
-        Scalar::F64 => scene::build::build::<f64>(&scene, &source).map(|_| ()),
-        Scalar::F32 => scene::build::build::<f32>(&scene, &source).map(|_| ()),
+        Scalar::F64 => scene::build::build::<f64>(&scene, &source).map(|built| built.particle_count()),
+        Scalar::F32 => scene::build::build::<f32>(&scene, &source).map(|built| built.particle_count()),
     };
-    built.map_err(|diagnostics| Failure::rejected(Rejected { source, diagnostics }))?;
-    print(&format!("{}: {} bodies, nothing wrong", path.display(), scene.body.len()))
+    let particles = built.map_err(|diagnostics| Failure::rejected(Rejected { source, diagnostics }))?;
+    let particles = if particles == 0 { String::new() } else { format!("{particles} particles, ") };
+    print(&format!("{}: {} bodies, {particles}nothing wrong", path.display(), scene.body.len()))
 }
 
 fn study(names: &[Study], quick: bool, out: &Path) -> Result<(), Failure> {

@@ -1,16 +1,19 @@
 //! `ga-physics run`: load, build, simulate with a progress bar, write the files, print the table.
 
 use super::Failure;
+use super::playback::{Cast, playback};
 use crate::algebra::Real;
 use crate::io::files::{WriteError, write_whole};
-use crate::io::html::{self, Playback};
-use crate::io::summary::{self, Settings, Summary};
+use crate::io::html;
+use crate::io::summary::{self, ParticleSettings, Settings, Summary};
 use crate::io::tables;
+use crate::particle::Particles;
 use crate::rigid::Bodies;
 use crate::rigid::rotor::{AdvanceError, MAX_TURN_RAD};
-use crate::scene::build::{Built, Look, build};
-use crate::scene::description::Scalar;
-use crate::scene::{Rejected, Scene, SceneSource, load, plan};
+use crate::scene::build::{Built, build};
+use crate::scene::description::{Constraint, Force, Method, Scalar};
+use crate::scene::plan::{self, SolverPlan};
+use crate::scene::{Rejected, Scene, SceneSource, load};
 use crate::simulation::{Event, EventKind, Record, SimulationError, World, state_hash};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::path::{Path, PathBuf};
@@ -46,8 +49,8 @@ fn run_in<T: Real>(options: &Options, scene: &Scene, source: SceneSource) -> Res
         Ok(built) => built,
         Err(diagnostics) => return Err(Failure::rejected(Rejected { source, diagnostics })),
     };
-    let names: Vec<String> = scene.body.iter().map(|body| body.name.get_ref().clone()).collect();
-    let Built { setup, looks, .. } = built;
+    let Built { setup, looks, particles } = built;
+    let cast = Cast::of(scene, looks, particles.as_ref());
     let out = options.out.clone().unwrap_or_else(|| Path::new("out").join(scene_name(&options.scene)));
     // Before the run: a directory that cannot be made should not cost a simulation.
     std::fs::create_dir_all(&out).map_err(|source| WriteError { path: out.clone(), source })?;
@@ -58,9 +61,9 @@ fn run_in<T: Real>(options: &Options, scene: &Scene, source: SceneSource) -> Res
     let (steps, outcome) = simulate(&mut world, &mut record, scene, &bar);
     let wall_s = started.elapsed().as_secs_f64();
     bar.finish_and_clear();
-    let failure = outcome.err().map(|error| explain(&error, &names));
-    let summary = summarise(options, scene, &source, &world, &record, steps, wall_s, failure.clone());
-    write_files(&out, &names, &looks, &record, &summary)?;
+    let failure = outcome.err().map(|error| explain(&error, &cast.bodies));
+    let summary = summarise(options, scene, &source, &cast, &world, &record, steps, wall_s, failure.clone());
+    write_files(&out, &cast, &record, &summary)?;
     if !options.quiet {
         super::print(&table(&summary, &out))?;
     }
@@ -144,6 +147,7 @@ fn summarise<T: Real>(
     options: &Options,
     scene: &Scene,
     source: &SceneSource,
+    cast: &Cast,
     world: &World<T>,
     record: &Record,
     steps: u64,
@@ -155,7 +159,7 @@ fn summarise<T: Real>(
     Summary {
         scene: scene_name(&options.scene),
         bodies: scene.body.len(),
-        particles: 0,
+        particles: cast.particles.len(),
         steps,
         events: record.events.len(),
         sim_s: world.time_s(),
@@ -165,9 +169,11 @@ fn summarise<T: Real>(
         momentum_drift_rel: drifts.momentum.filter(|_| conserved.momentum),
         angular_momentum_drift_rel: drifts.angular_momentum.filter(|_| conserved.angular_momentum),
         max_penetration_m: record.max_penetration(),
-        max_violation_m: None,
+        max_violation_m: record.max_violation(),
+        particle_work: None,
         state_bytes_per_body: Bodies::<T>::bytes_per_body(),
-        state_hash: format!("{:016x}", state_hash(world.bodies())),
+        state_bytes_per_particle: Particles::<T>::bytes_per_particle(),
+        state_hash: format!("{:016x}", state_hash(world.bodies(), &Particles::default())),
         failure,
         settings: Settings {
             duration_s: *scene.duration_s.get_ref(),
@@ -176,12 +182,25 @@ fn summarise<T: Real>(
             formulation: "rotor".into(),
             scalar: if size_of::<T>() == size_of::<f64>() { "f64".into() } else { "f32".into() },
             method: "rk4".into(),
+            particle_solver: (!cast.particles.is_empty()).then(|| particle_settings(&SolverPlan::of(scene))),
             max_turn_rad: MAX_TURN_RAD,
             substeps: world.substeps(),
             gravity_m_s2: scene.gravity_m_s2.get_ref().0,
             restitution: *scene.contact.restitution.get_ref(),
             overrides: source.overrides().to_vec(),
         },
+    }
+}
+
+fn particle_settings(solver: &SolverPlan) -> ParticleSettings {
+    let adaptive = |tolerance: f64| solver.method.is_adaptive().then_some(tolerance);
+    ParticleSettings {
+        method: solver.method.name().into(),
+        rtol: adaptive(solver.rtol),
+        atol: adaptive(solver.atol),
+        constraints: solver.constraints.name().into(),
+        stabilisation: solver.stabilisation.name().into(),
+        substeps: (solver.method == Method::Xpbd).then_some(solver.substeps),
     }
 }
 
@@ -194,23 +213,42 @@ struct Conserved {
 
 impl Conserved {
     fn of(scene: &Scene, record: &Record) -> Self {
-        let free = scene.force.is_empty();
         let impacts = || record.events.iter().filter(|event| event.kind == EventKind::Impact);
         let elastic = *scene.contact.restitution.get_ref() >= 1.0 || impacts().count() == 0;
         let fixed = |index: usize| scene.body[index].fixed;
         let struck_fixed = impacts().any(|event| fixed(event.a) || fixed(event.b));
-        let isolated = free && !struck_fixed && scene.gravity_m_s2.get_ref().0 == [0.0; 3];
-        Self { energy: free && elastic, momentum: isolated, angular_momentum: isolated }
+        // Constraints do no work; they pass momentum on to what is fixed.
+        let potential = |force: &Force| match force {
+            Force::InverseSquare(_) | Force::InverseSquareToPoint(_) => true,
+            Force::Spring(spring) => *spring.damping_n_s_m.get_ref() == 0.0,
+            Force::AtPoint(_) | Force::LinearDrag(_) | Force::QuadraticDrag(_) => false,
+        };
+        let mutual = |force: &Force| matches!(force, Force::InverseSquare(_) | Force::Spring(_));
+        let anchored = scene.particle.iter().any(|particle| particle.fixed)
+            || scene.chain.iter().any(|chain| !chain.fixed.is_empty())
+            || scene.net.iter().any(|net| !net.fixed.is_empty())
+            || scene.constraint.iter().any(|constraint| !matches!(constraint, Constraint::Distance(_)));
+        let isolated =
+            scene.force.iter().all(mutual) && !struck_fixed && !anchored && scene.gravity_m_s2.get_ref().0 == [0.0; 3];
+        Self {
+            energy: scene.force.iter().all(potential) && elastic,
+            momentum: isolated,
+            angular_momentum: isolated || central(scene, &scene.force) && !struck_fixed && !anchored,
+        }
     }
 }
 
-fn write_files(
-    out: &Path,
-    names: &[String],
-    looks: &[Look],
-    record: &Record,
-    summary: &Summary,
-) -> Result<(), WriteError> {
+/// Whether every force is mutual, or towards the origin, about which angular momentum is taken.
+fn central(scene: &Scene, forces: &[Force]) -> bool {
+    let central = |force: &Force| match force {
+        Force::InverseSquareToPoint(force) => force.point_m.get_ref().0 == [0.0; 3],
+        Force::InverseSquare(_) | Force::Spring(_) => true,
+        _ => false,
+    };
+    scene.gravity_m_s2.get_ref().0 == [0.0; 3] && forces.iter().all(central)
+}
+
+fn write_files(out: &Path, cast: &Cast, record: &Record, summary: &Summary) -> Result<(), WriteError> {
     // The summary of an earlier run must not stand beside the tables of this one, if this one is killed in between.
     match std::fs::remove_file(out.join("summary.json")) {
         Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
@@ -218,61 +256,13 @@ fn write_files(
         }
         _ => {}
     }
-    write_whole(&out.join("trajectory.csv"), |file| tables::trajectory(file, names, &record.frames))?;
+    write_whole(&out.join("trajectory.csv"), |file| tables::trajectory(file, &cast.names(), &record.frames))?;
     write_whole(&out.join("energy.csv"), |file| tables::energy(file, &record.energies))?;
-    write_whole(&out.join("events.csv"), |file| tables::events(file, names, &record.events))?;
-    let page = html::render(&playback(&summary.scene, names, looks, record));
+    write_whole(&out.join("events.csv"), |file| tables::events(file, &cast.bodies, &record.events))?;
+    let page = html::render(&playback(&summary.scene, cast, record));
     write_whole(&out.join("run.html"), |file| file.write_all(page.as_bytes()))?;
     // Last: a summary says that all the files are there.
     write_whole(&out.join("summary.json"), |file| summary::write(file, summary))
-}
-
-fn playback<'a>(scene: &'a str, names: &[String], looks: &[Look], record: &Record) -> Playback<'a> {
-    let bodies = names.iter().zip(looks).enumerate().map(|(index, (name, look))| html::BodyView {
-        name: name.clone(),
-        fixed: record
-            .frames
-            .first()
-            .is_some_and(|first| record.frames.iter().all(|frame| frame.bodies[index] == first.bodies[index])),
-        shape: match look {
-            Look::Mesh(mesh) => html::Shape::Mesh {
-                vertices: mesh.vertices.iter().map(|vertex| <[f64; 3]>::from(*vertex)).collect(),
-                triangles: mesh.triangles.clone(),
-            },
-            Look::Plane(normal) => html::Shape::Plane { normal: <[f64; 3]>::from(*normal) },
-            Look::Ellipsoid(semi_axes) => html::Shape::Ellipsoid { semi_axes: *semi_axes },
-        },
-    });
-    let pose = |body: &crate::simulation::BodySample| {
-        let ([x, y, z], [s, e23, e31, e12]) = (<[f64; 3]>::from(body.position), <[f64; 4]>::from(body.rotor));
-        [x, y, z, s, e23, e31, e12]
-    };
-    let mark = |event: &Event| html::Mark {
-        time_s: event.time_s,
-        a: names[event.a].clone(),
-        b: names[event.b].clone(),
-        point: <[f64; 3]>::from(event.point),
-        normal: <[f64; 3]>::from(event.normal),
-        impulse_n_s: event.impulse,
-        kind: event.kind.name().into(),
-    };
-    Playback {
-        scene,
-        bodies: bodies.collect(),
-        times_s: record.frames.iter().map(|frame| frame.time_s).collect(),
-        poses: record.frames.iter().map(|frame| frame.bodies.iter().map(pose).collect()).collect(),
-        marks: record.events.iter().map(mark).collect(),
-        energy: record
-            .energies
-            .iter()
-            .map(|sample| html::EnergySample {
-                time_s: sample.time_s,
-                kinetic_j: sample.totals.kinetic,
-                potential_j: sample.totals.potential,
-                total_j: sample.totals.kinetic + sample.totals.potential,
-            })
-            .collect(),
-    }
 }
 
 fn table(summary: &Summary, out: &Path) -> String {
@@ -283,15 +273,32 @@ fn table(summary: &Summary, out: &Path) -> String {
             format!("{} s in {:.3} s, {:.0} times real time", summary.sim_s, summary.wall_s, summary.real_time_factor),
         ),
         ("bodies", summary.bodies.to_string()),
-        ("steps", format!("{} ({} substeps)", summary.steps, summary.settings.substeps)),
+        ("particles", summary.particles.to_string()),
+        ("steps", steps(summary)),
         ("events", summary.events.to_string()),
         ("energy drift", drift(summary.energy_drift_rel)),
         ("momentum drift", drift(summary.momentum_drift_rel)),
         ("ang. mom. drift", drift(summary.angular_momentum_drift_rel)),
         ("max penetration", format!("{:.1e} m", summary.max_penetration_m)),
+        ("max violation", summary.max_violation_m.map_or_else(|| "-".into(), |value| format!("{value:.1e} m"))),
         ("state hash", summary.state_hash.clone()),
     ];
     let mut text: String = rows.iter().map(|(name, value)| format!("{name:<16} {value}\n")).collect();
     text += &format!("open             {}\n", out.join("run.html").display());
     text
+}
+
+/// How many steps were made: of bodies, and of particles.
+fn steps(summary: &Summary) -> String {
+    let bodies = format!("{} ({} substeps)", summary.steps, summary.settings.substeps);
+    match (&summary.particle_work, &summary.settings.particle_solver) {
+        (Some(work), Some(solver)) => {
+            let of = format!(
+                "{} by {} ({} rejected, {} evaluations)",
+                work.accepted_steps, solver.method, work.rejected_steps, work.rhs_evals
+            );
+            if summary.bodies > 0 { format!("{bodies}, particles {of}") } else { of }
+        }
+        _ => bodies,
+    }
 }

@@ -8,7 +8,11 @@
 //! Conventions: SI units, z is up; the rotor `R = s + e23 + e31 + e12` acts as `x' = R x ~R`, `R = exp(-B phi/2)`.
 //!
 //! It does not simulate, resample or judge: a pose that is missing or not finite is stored as NaN, and the viewer
-//! then shows the nearest finite pose, or hides the body where there is none.
+//! then shows the nearest finite pose, or hides the body where there is none. So with particles.
+
+mod particles;
+
+pub use particles::{Guide, ParticlesView};
 
 use std::collections::BTreeMap;
 
@@ -29,6 +33,8 @@ pub struct Playback<'a> {
     pub times_s: Vec<f64>,
     /// Per frame and body: `x, y, z` of the centre of mass (world, m), then the rotor `s, e23, e31, e12`.
     pub poses: Vec<Vec<[f64; POSE_COMPONENTS]>>,
+    /// The particles.
+    pub particles: ParticlesView,
     /// Contacts to be marked.
     pub marks: Vec<Mark>,
     /// The energy curve; may be empty, and need not share the frames' times.
@@ -104,13 +110,15 @@ const TEMPLATE: &str = include_str!("viewer/viewer.html");
 const STYLE: &str = include_str!("viewer/viewer.css");
 
 /// The viewer's parts in the order in which they use each other; together they are one function.
-const SCRIPTS: [&str; 11] = [
+const SCRIPTS: [&str; 13] = [
     include_str!("viewer/math.js"),
     include_str!("viewer/recording.js"),
     include_str!("viewer/geometry.js"),
     include_str!("viewer/camera.js"),
+    include_str!("viewer/particles.js"),
     include_str!("viewer/stage.js"),
     include_str!("viewer/webgl.js"),
+    include_str!("viewer/webgl_particles.js"),
     include_str!("viewer/canvas2d.js"),
     include_str!("viewer/overlay.js"),
     include_str!("viewer/plot.js"),
@@ -120,13 +128,15 @@ const SCRIPTS: [&str; 11] = [
 
 /// The whole page as text; the same playback gives the same bytes.
 ///
-/// Cost: one pass over the poses; the page takes about 37 bytes a pose and 90 KB for the viewer.
+/// Cost: one pass over the poses; the page takes about 37 bytes a pose, 16 bytes a position of a particle, and 110 KB for
+/// the viewer.
 #[must_use]
 pub fn render(playback: &Playback<'_>) -> String {
     let centre = centre(playback);
     let mut names = Names::default();
     let (mark_numbers, mark_names) = marks(&playback.marks, &mut names);
     let index = index(playback, centre, names).to_string();
+    let points = particles::positions(&playback.particles, playback.times_s.len(), centre);
     fill(
         TEMPLATE,
         &[
@@ -136,6 +146,7 @@ pub fn render(playback: &Playback<'_>) -> String {
             ("index", &escape_json(&index)),
             ("times", &BASE64.encode(f64_bytes(playback.times_s.iter().copied()))),
             ("poses", &BASE64.encode(f32_bytes(poses(playback, centre)))),
+            ("points", &BASE64.encode(f32_bytes(points))),
             ("energy", &BASE64.encode(f64_bytes(energy(&playback.energy)))),
             ("marks", &BASE64.encode(f64_bytes(mark_numbers.into_iter()))),
             ("mark_names", &BASE64.encode(u32_bytes(mark_names.into_iter()))),
@@ -143,23 +154,24 @@ pub fn render(playback: &Playback<'_>) -> String {
     )
 }
 
-/// The middle of the box round all finite positions of the moving bodies; of all bodies where none moves.
+/// The middle of the box round all finite positions of what moves; of everything where nothing moves.
 fn centre(playback: &Playback<'_>) -> [f64; 3] {
-    middle(playback, |body| !body.fixed).or_else(|| middle(playback, |_| true)).unwrap_or([0.0; 3])
+    middle(playback, |fixed| !fixed).or_else(|| middle(playback, |_| true)).unwrap_or([0.0; 3])
 }
 
-fn middle(playback: &Playback<'_>, wanted: impl Fn(&BodyView) -> bool) -> Option<[f64; 3]> {
+/// The middle of the box round what is wanted, by whether it is fixed.
+fn middle(playback: &Playback<'_>, wanted: impl Fn(bool) -> bool) -> Option<[f64; 3]> {
+    let wanted = &wanted;
+    let bodies = playback.poses.iter().flat_map(|frame| playback.bodies.iter().zip(frame));
+    let bodies = bodies.filter(|(body, _)| wanted(body.fixed)).map(|(_, [x, y, z, ..])| [*x, *y, *z]);
+    let view = &playback.particles;
+    let particles = view.positions.iter().flat_map(|frame| view.fixed.iter().zip(frame));
+    let particles = particles.filter(|(fixed, _)| wanted(**fixed)).map(|(_, position)| *position);
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for frame in &playback.poses {
-        for (body, [x, y, z, ..]) in playback.bodies.iter().zip(frame) {
-            let position = [*x, *y, *z];
-            if !wanted(body) || !position.iter().all(|c| c.is_finite()) {
-                continue;
-            }
-            for ((l, h), c) in low.iter_mut().zip(&mut high).zip(position) {
-                *l = l.min(c);
-                *h = h.max(c);
-            }
+    for position in bodies.chain(particles).filter(|position| position.iter().all(|c| c.is_finite())) {
+        for ((l, h), c) in low.iter_mut().zip(&mut high).zip(position) {
+            *l = l.min(c);
+            *h = h.max(c);
         }
     }
     // Halved before the sum: two finite ends must not overflow.
@@ -189,6 +201,7 @@ fn index(playback: &Playback<'_>, centre: [f64; 3], names: Names) -> Value {
         "centre": centre,
         "bodies": bodies,
         "shapes": shapes,
+        "particles": particles::index(&playback.particles, centre),
         "names": names.list,
     })
 }

@@ -32,8 +32,12 @@ pub struct Summary {
     pub max_penetration_m: f64,
     /// The largest constraint violation, m; null without constraints.
     pub max_violation_m: Option<f64>,
+    /// What the solution of the particles' motion took; null without particles.
+    pub particle_work: Option<ParticleWork>,
     /// State of one body, bytes.
     pub state_bytes_per_body: usize,
+    /// State of one particle, bytes.
+    pub state_bytes_per_particle: usize,
     /// FNV-1a of the final state, hexadecimal.
     pub state_hash: String,
     /// Why the run ended early; absent if it did not.
@@ -41,6 +45,38 @@ pub struct Summary {
     pub failure: Option<String>,
     /// What was set.
     pub settings: Settings,
+}
+
+/// What the solution of the particles' motion took.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct ParticleWork {
+    /// Constraints; a line or circle is two.
+    pub constraints: usize,
+    /// Those of them that the others imply.
+    pub redundant_constraints: usize,
+    /// Evaluations of the forces.
+    pub rhs_evals: u64,
+    /// Steps.
+    pub accepted_steps: u64,
+    /// Steps that were too inaccurate, and made again.
+    pub rejected_steps: u64,
+}
+
+/// How the motion of particles is solved.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ParticleSettings {
+    /// The integrator.
+    pub method: String,
+    /// Relative tolerance; null if the method does not control its error.
+    pub rtol: Option<f64>,
+    /// Absolute tolerance, m and m/s; null if the method does not control its error.
+    pub atol: Option<f64>,
+    /// How the constraint forces are solved for.
+    pub constraints: String,
+    /// What keeps particles on their constraints.
+    pub stabilisation: String,
+    /// Substeps a step; null if the method has none.
+    pub substeps: Option<u32>,
 }
 
 /// What was set, and what followed from it.
@@ -56,8 +92,10 @@ pub struct Settings {
     pub formulation: String,
     /// The scalar.
     pub scalar: String,
-    /// The integrator.
+    /// The integrator of bodies.
     pub method: String,
+    /// The solver of particles; null without particles.
+    pub particle_solver: Option<ParticleSettings>,
     /// The largest turn of a body in one substep, rad.
     pub max_turn_rad: f64,
     /// Substeps of the integrator, those of the search for impacts included.

@@ -2,7 +2,7 @@
 //!
 //! Numbers have 17 significant digits, enough to give back the same f64.
 
-use crate::simulation::{EnergySample, Event, Frame};
+use crate::simulation::{BodySample, EnergySample, Event, Frame, ParticleSample};
 use std::io::{self, Write};
 
 /// 17 significant digits.
@@ -19,7 +19,8 @@ fn rows(out: &mut dyn Write, header: &[&str], rows: impl Iterator<Item = Vec<Str
     writer.flush()
 }
 
-/// One row a frame and body.
+/// One row a frame and body, then one a frame and particle, whose rotational columns are empty. `names` are of the
+/// bodies, then of the particles.
 ///
 /// # Errors
 /// The output fails.
@@ -41,19 +42,29 @@ pub fn trajectory(out: &mut dyn Write, names: &[String], frames: &[Frame]) -> io
         "omega_e31_world",
         "omega_e12_world",
     ];
-    let all = frames.iter().flat_map(|frame| frame.bodies.iter().zip(names).map(move |body| (frame.time_s, body)));
-    rows(
-        out,
-        &HEADER,
-        all.map(|(time_s, (body, name))| {
-            let mut row = vec![number(time_s), name.clone()];
-            row.extend(<[f64; 3]>::from(body.position).map(number));
-            row.extend(<[f64; 4]>::from(body.rotor).map(number));
-            row.extend(<[f64; 3]>::from(body.velocity).map(number));
-            row.extend(<[f64; 3]>::from(body.omega_world).map(number));
+    let body = |body: &BodySample| {
+        let mut row = <[f64; 3]>::from(body.position).map(number).to_vec();
+        row.extend(<[f64; 4]>::from(body.rotor).map(number));
+        row.extend(<[f64; 3]>::from(body.velocity).map(number));
+        row.extend(<[f64; 3]>::from(body.omega_world).map(number));
+        row
+    };
+    let particle = |particle: &ParticleSample| {
+        let mut row = <[f64; 3]>::from(particle.position).map(number).to_vec();
+        row.extend(core::array::from_fn::<_, 4, _>(|_| String::new()));
+        row.extend(<[f64; 3]>::from(particle.velocity).map(number));
+        row.extend(core::array::from_fn::<_, 3, _>(|_| String::new()));
+        row
+    };
+    let all = frames.iter().flat_map(|frame| {
+        let states = frame.bodies.iter().map(body).chain(frame.particles.iter().map(particle));
+        names.iter().zip(states).map(|(name, state)| {
+            let mut row = vec![number(frame.time_s), name.clone()];
+            row.extend(state);
             row
-        }),
-    )
+        })
+    });
+    rows(out, &HEADER, all)
 }
 
 /// One row a frame.

@@ -4,7 +4,8 @@ use super::{Event, World};
 use crate::algebra::Real;
 use crate::algebra::cga::Point;
 use crate::algebra::g3::{Bivector, Rotor, Vector};
-use crate::rigid::{Bodies, Totals};
+use crate::particle::{Particles, Totals};
+use crate::rigid::Bodies;
 use alloc::vec::Vec;
 
 /// The state of one body, in f64.
@@ -20,13 +21,34 @@ pub struct BodySample {
     pub omega_world: Bivector<f64>,
 }
 
-/// All bodies at one instant.
+/// The state of one particle, in f64.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParticleSample {
+    /// m.
+    pub position: Point<f64>,
+    /// m/s.
+    pub velocity: Vector<f64>,
+}
+
+/// All particles of a state.
+#[must_use]
+pub fn particle_samples<T: Real>(state: &Particles<T>) -> Vec<ParticleSample> {
+    let sample = |(position, velocity): (&Point<f64>, &Vector<T>)| ParticleSample {
+        position: *position,
+        velocity: velocity.map(Real::to_f64),
+    };
+    state.position.iter().zip(&state.velocity).map(sample).collect()
+}
+
+/// All bodies and particles at one instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
     /// When, s.
     pub time_s: f64,
     /// One entry a body.
     pub bodies: Vec<BodySample>,
+    /// One entry a particle.
+    pub particles: Vec<ParticleSample>,
 }
 
 /// Energy and momenta at one instant.
@@ -65,15 +87,19 @@ pub struct Record {
     kinetic_scale: f64,
     momentum_scale: f64,
     angular_momentum_scale: f64,
+    max_violation: Option<f64>,
 }
 
 impl Record {
     /// Takes note of the state: for the drifts always, as a frame if asked.
     pub fn observe<T: Real>(&mut self, world: &World<T>, keep_frame: bool) {
-        let totals = world.totals();
+        self.note(world.time_s(), world.totals(), keep_frame, || frame(world));
+    }
+
+    /// Takes note of a state with these sums: for the drifts always, as a frame if asked.
+    pub fn note(&mut self, time_s: f64, totals: Totals, keep_frame: bool, frame: impl FnOnce() -> Frame) {
         let start = *self.start.get_or_insert(totals);
-        let energy = |t: &Totals| t.kinetic + t.potential;
-        self.energy_error = self.energy_error.max((energy(&totals) - energy(&start)).abs());
+        self.energy_error = self.energy_error.max((totals.energy() - start.energy()).abs());
         self.momentum_error = self.momentum_error.max((totals.momentum - start.momentum).norm_sq().sqrt());
         let turned = totals.angular_momentum - start.angular_momentum;
         self.angular_momentum_error = self.angular_momentum_error.max(turned.norm_sq().sqrt());
@@ -81,10 +107,21 @@ impl Record {
         self.momentum_scale = self.momentum_scale.max(totals.momentum_scale);
         self.angular_momentum_scale = self.angular_momentum_scale.max(totals.angular_momentum_scale);
         let last = self.frames.last().map(|frame| frame.time_s);
-        if keep_frame && last != Some(world.time_s()) {
-            self.frames.push(frame(world));
-            self.energies.push(EnergySample { time_s: world.time_s(), totals });
+        if keep_frame && last != Some(time_s) {
+            self.frames.push(frame());
+            self.energies.push(EnergySample { time_s, totals });
         }
+    }
+
+    /// Takes note of how far the constraints are violated, m.
+    pub fn note_violation(&mut self, violation: f64) {
+        self.max_violation = Some(self.max_violation.unwrap_or_default().max(violation));
+    }
+
+    /// The largest violation that was noted, m; none without constraints.
+    #[must_use]
+    pub fn max_violation(&self) -> Option<f64> {
+        self.max_violation
     }
 
     /// The drifts so far.
@@ -113,12 +150,12 @@ fn frame<T: Real>(world: &World<T>) -> Frame {
         velocity: bodies.velocity(index, &inertias[index]).map(Real::to_f64),
         omega_world: bodies.omega_world(index, &inertias[index]).map(Real::to_f64),
     };
-    Frame { time_s: world.time_s(), bodies: (0..bodies.len()).map(sample).collect() }
+    Frame { time_s: world.time_s(), bodies: (0..bodies.len()).map(sample).collect(), particles: Vec::new() }
 }
 
-/// FNV-1a over the bits of the state: equal states, equal hashes, on every machine.
+/// FNV-1a over the bits of the state, bodies first: equal states, equal hashes, on every machine.
 #[must_use]
-pub fn state_hash<T: Real>(bodies: &Bodies<T>) -> u64 {
+pub fn state_hash<T: Real>(bodies: &Bodies<T>, particles: &Particles<T>) -> u64 {
     let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
     let mut feed = |value: f64| {
         for byte in value.to_bits().to_le_bytes() {
@@ -130,6 +167,10 @@ pub fn state_hash<T: Real>(bodies: &Bodies<T>) -> u64 {
         <[f64; 4]>::from(bodies.rotor[index].map(Real::to_f64)).into_iter().for_each(&mut feed);
         <[f64; 3]>::from(bodies.momentum[index].map(Real::to_f64)).into_iter().for_each(&mut feed);
         <[f64; 3]>::from(bodies.angular_momentum[index].map(Real::to_f64)).into_iter().for_each(&mut feed);
+    }
+    for (position, velocity) in particles.position.iter().zip(&particles.velocity) {
+        <[f64; 3]>::from(*position).into_iter().for_each(&mut feed);
+        <[f64; 3]>::from(velocity.map(Real::to_f64)).into_iter().for_each(&mut feed);
     }
     hash
 }

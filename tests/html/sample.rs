@@ -3,7 +3,7 @@
 //! Bodies bounce on z = 0 along parabolas with a loss at each impact, and turn about a fixed axis. They do not touch
 //! each other: it is a picture to judge the viewer by, not physics.
 
-use ga_physics::io::html::{BodyView, EnergySample, Mark, Playback, Shape};
+use ga_physics::io::html::{BodyView, EnergySample, Guide, Mark, ParticlesView, Playback, Shape};
 
 const GRAVITY: f64 = 9.81;
 const RESTITUTION: f64 = 0.8;
@@ -117,7 +117,7 @@ pub(crate) fn thrown(scene: &str, throws: Vec<Throw>, duration: f64, offset: [f6
     let floor = BodyView { name: "floor".to_owned(), fixed: true, shape: Shape::Plane { normal: [0.0, 0.0, 1.0] } };
     let thrown = throws.into_iter().map(|t| BodyView { name: t.name, fixed: false, shape: t.shape });
     let bodies = core::iter::once(floor).chain(thrown).collect();
-    Playback { scene, bodies, times_s: times, poses, marks, energy }
+    Playback { scene, bodies, times_s: times, poses, particles: ParticlesView::default(), marks, energy }
 }
 
 /// A cube, a pyramid and an ellipsoid above a plane.
@@ -170,4 +170,100 @@ pub(crate) fn crowd(scene: &str, n: usize) -> Playback<'_> {
         })
         .collect();
     thrown(scene, throws, 5.0, [0.0; 3])
+}
+
+/// A recording of particles alone: where each is at a time, at 60 Hz.
+fn moving(
+    scene: &str,
+    duration: f64,
+    n: usize,
+    position: impl Fn(usize, f64) -> [f64; 3],
+    particles: ParticlesView,
+) -> Playback<'_> {
+    let times: Vec<f64> = (0..=(duration * 60.0).round() as usize).map(|k| k as f64 / 60.0).collect();
+    let positions = times.iter().map(|&time| (0..n).map(|i| position(i, time)).collect()).collect();
+    let energy = times.iter().map(|&time_s| {
+        let kinetic_j = (3.0 * time_s).sin().powi(2);
+        EnergySample { time_s, kinetic_j, potential_j: 1.0 - kinetic_j, total_j: 1.0 }
+    });
+    let names = (0..n).map(|i| format!("p.{i}")).collect();
+    Playback {
+        scene,
+        bodies: vec![],
+        energy: energy.collect(),
+        poses: vec![vec![]; times.len()],
+        times_s: times,
+        particles: ParticlesView { names, positions, ..particles },
+        marks: vec![],
+    }
+}
+
+/// A row of particles that swing, each linked to the next, the first to a point.
+pub(crate) fn pendulums(scene: &str, n: usize, offset: [f64; 3]) -> Playback<'_> {
+    let position = |i: usize, time: f64| {
+        let angle = 0.8 * (3.0 * time).cos() * (1.0 + 0.1 * i as f64);
+        let r = 1.0 + 0.4 * i as f64;
+        [offset[0] + r * angle.sin(), offset[1], offset[2] - r * angle.cos()]
+    };
+    let particles = ParticlesView {
+        groups: vec![("first".to_owned(), 1), ("others".to_owned(), n - 1)],
+        fixed: vec![false; n],
+        masses: vec![1.0; n],
+        links: (1..n).map(|i| [i - 1, i]).collect(),
+        tethers: vec![(0, offset)],
+        ..ParticlesView::default()
+    };
+    moving(scene, 3.0, n, position, particles)
+}
+
+/// A waving square sheet of side x side particles, fixed in two corners.
+pub(crate) fn sheet(scene: &str, side: usize) -> Playback<'_> {
+    let position = |i: usize, time: f64| {
+        let (u, v) = ((i / side) as f64 / side as f64, (i % side) as f64 / side as f64);
+        [2.0 * u - 1.0, 0.3 * v * (6.0 * (u + v) - 3.0 * time).sin(), -2.0 * v]
+    };
+    let n = side * side;
+    let links = (0..n).flat_map(|i| {
+        let right = (i + side < n).then_some([i, i + side]);
+        let below = ((i + 1) % side > 0).then_some([i, i + 1]);
+        [right, below].into_iter().flatten()
+    });
+    let particles = ParticlesView {
+        groups: vec![("sheet".to_owned(), n)],
+        fixed: (0..n).map(|i| i == 0 || i == n - side).collect(),
+        masses: vec![0.01; n],
+        links: links.collect(),
+        ..ParticlesView::default()
+    };
+    moving(scene, 1.0, n, position, particles)
+}
+
+/// One particle on each kind of surface, two joined by a spring, one round a centre.
+pub(crate) fn guides(scene: &str) -> Playback<'_> {
+    let position = |i: usize, time: f64| {
+        let (sin, cos) = (2.0 * time + i as f64).sin_cos();
+        match i {
+            0 => [cos, 0.0, sin],
+            1 => [3.0 + 0.6 * cos * sin, 0.6 * cos * cos, 0.8 + 0.6 * sin],
+            2 => [-3.0 + cos, 0.5 * cos, 0.5 * cos],
+            3 => [0.5 * sin, 2.0 + cos, -1.5],
+            4 => [3.0 + cos, 2.0, 1.0 + 0.2 * sin],
+            _ => [4.0 + cos, 2.5, 1.0],
+        }
+    };
+    let particles = ParticlesView {
+        groups: ["bead", "ant", "slider", "puck", "left", "right"].map(|name| (name.to_owned(), 1)).into(),
+        fixed: vec![false; 6],
+        masses: vec![1.0, 8.0, 1.0, 0.1, 1.0, 1.0],
+        springs: vec![[4, 5]],
+        centres: vec![[0.0; 3]],
+        guides: vec![
+            Guide::Circle { centre: [0.0; 3], radius: 1.0, normal: [0.0, 1.0, 0.0] },
+            Guide::Sphere { centre: [3.0, 0.0, 0.8], radius: 0.6 },
+            Guide::Line { point: [-3.0, 0.0, 0.0], direction: [2.0, 1.0, 1.0] },
+            Guide::Plane { point: [0.0, 0.0, -1.5], normal: [0.0, 0.0, 3.0] },
+        ],
+        ..ParticlesView::default()
+    };
+    moving(scene, 4.0, 6, position, particles)
 }

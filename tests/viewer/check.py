@@ -8,7 +8,8 @@ protocol over loopback. Screenshots go to DIR (default: beside the page).
 
 Checked: the ready mark in the title; that moving the slider moves the time and the picture; play and pause by the space
 key; that the console holds no error and nothing was requested but the page; that points of bodies are where the
-recorded rotor puts them, by the geometric product and not by the viewer's quaternions.
+recorded rotor puts them, by the geometric product and not by the viewer's quaternions; that particles are where they
+were recorded, and that a click selects one.
 """
 
 import argparse, base64, json, math, pathlib, re, shutil, socket, struct, subprocess, sys, tempfile, time
@@ -191,6 +192,8 @@ class Recording:
         self.index = json.loads(block("ga-index"))
         self.times = numbers("ga-times", "d", 8)
         self.poses = numbers("ga-poses", "f", 4)
+        self.points = numbers("ga-points", "f", 4)
+        self.particles = len(self.index["particles"]["names"])
         self.moving = [i for i, body in enumerate(self.index["bodies"]) if not body["fixed"]]
 
     def pose(self, frame, body):
@@ -214,6 +217,46 @@ def check_poses(browser, recording):
                 seen += 1
     # Both compute in f64 from the same stored numbers: a few roundings of 1.1e-16 each.
     check(worst < 1e-14, f"{seen} points of bodies where R x ~R puts them (worst {worst:.1e})")
+
+
+def check_particles(browser, recording):
+    if recording.particles == 0:
+        return
+    worst, seen = 0.0, 0
+    every = max(recording.particles // 20, 1)
+    for frame in {0, len(recording.times) // 2, len(recording.times) - 1}:
+        browser.script("gaViewer.setTime(arguments[0])", recording.times[frame])
+        for particle in range(0, recording.particles, every):
+            at = 3 * (frame * recording.particles + particle)
+            stored = recording.points[at:at + 3]
+            if not all(map(math.isfinite, stored)):
+                continue
+            shown = browser.script("return gaViewer.particlePoint(arguments[0])", particle)
+            worst = max([worst] + [abs(s - p) for s, p in zip(shown, stored)])
+            seen += 1
+    # At a frame's own time nothing is mixed: the same f32.
+    check(worst == 0.0, f"{seen} particles where they were recorded")
+
+
+def check_picking(browser, recording, out, name):
+    """A click on a particle selects it and says where it is."""
+    if recording.particles == 0:
+        return
+    browser.script("gaViewer.setTime(arguments[0])", recording.times[0])
+    browser.after_drawing()
+    found = browser.script("""
+        const box = document.getElementById('view').getBoundingClientRect();
+        for (let i = arguments[0] - 1; i >= 0; i--) {
+          const [x, y] = gaViewer.particlePixel(i);
+          if (x > 5 && y > 5 && x < box.width - 5 && y < box.height - 5) return [box.left + x, box.top + y];
+        }
+        return null;""", recording.particles)
+    check(found is not None, "a particle is in the picture")
+    browser.drag(found, found)
+    browser.after_drawing()
+    text = browser.script("const r = document.getElementById('readout'); return r.hidden ? '' : r.textContent")
+    check(any(particle and particle in text for particle in recording.index["particles"]["names"]), f"a click selects: {text!r}")
+    browser.screenshot(out / f"{name}-picked.png")
 
 
 def bodies_only(browser):
@@ -242,7 +285,7 @@ def check_slider(browser, recording, out, name):
     check(abs(now - (start + end) / 2) < 0.05 * (end - start), f"the slider's middle is the time {now:.4g} s of {start:.4g} to {end:.4g} s")
     after = bodies_only(browser)
     browser.screenshot(out / f"{name}-middle.png")
-    if recording.moving:
+    if recording.moving or recording.particles:
         share = changed_share(before, after)
         check(share > 1e-4, f"the picture changed with the time ({100 * share:.2f} % of its pixels)")
 
@@ -284,7 +327,10 @@ def check_renderer(page, recording, out, renderer, any_renderer):
         used = browser.script("return gaViewer.renderer")
         check(used == renderer or any_renderer, f"drawn by {used}")
         check_slider(browser, recording, out, f"{page.stem}-{renderer}")
-        check_poses(browser, recording)
+        if recording.moving:
+            check_poses(browser, recording)
+        check_particles(browser, recording)
+        check_picking(browser, recording, out, f"{page.stem}-{renderer}")
         check_playing(browser, recording)
         check_quiet(browser)
 

@@ -25,6 +25,7 @@ class Canvas2dRenderer {
     const front = (patch) => dot(sub(view.eye, patch.centre), patch.normal) > 0;
     for (const patch of scene.planes.filter(front)) this.drawPlane(scene, view, patch, true);
     this.drawBodies(scene, view);
+    if (scene.stage.cloud) this.drawCloud(scene.stage.cloud, scene.theme, view);
     for (const patch of scene.planes.filter((p) => !front(p))) this.drawPlane(scene, view, patch, false);
   }
 
@@ -35,7 +36,7 @@ class Canvas2dRenderer {
     if (patch.solid) {
       // Rings one on the other: the fill fades towards the rim as the shader's does.
       const rings = 6;
-      c.fillStyle = css(patch.rgb ?? theme.fixedRgb, planeOpacity(front) / rings);
+      c.fillStyle = css(patch.rgb ?? theme.fixedRgb, planeOpacity(front && !patch.light) / rings);
       for (let ring = 1; ring <= rings; ring++) {
         const radius = patch.size * mix(0.45, 0.95, ring / rings);
         const rim = Array.from({ length: 48 }, (_, k) => on(radius * Math.cos((k * Math.PI) / 24), radius * Math.sin((k * Math.PI) / 24)));
@@ -44,7 +45,7 @@ class Canvas2dRenderer {
       }
     }
     for (const [i, axis] of [[0, (a, b) => on(a, b)], [1, (a, b) => on(b, a)]]) this.drawLines(scene, view, patch, axis, i, stage.gridStep);
-    if (patch.solid && front && takesShadow(patch)) this.drawShadows(scene, view, patch);
+    if (patch.solid && !patch.light && front && takesShadow(patch)) this.drawShadows(scene, view, patch);
   }
 
   drawLines(scene, view, patch, place, i, gap) {
@@ -141,6 +142,61 @@ class Canvas2dRenderer {
       const rgb = item.rgb.map((x) => Math.min(x * b + tint, 1));
       facets.push({ points, depth: length(toEye), fill: css(rgb), edge, sharp: shape.sharp[i] });
     });
+  }
+
+  /** Particles over everything else: lines first, then balls from far to near. */
+  drawCloud(cloud, theme, view) {
+    const c = this.context;
+    const strokes = (segments, rgb, alpha, breadth) => {
+      c.strokeStyle = css(rgb, alpha);
+      c.lineWidth = breadth;
+      c.beginPath();
+      for (const ends of segments) {
+        const [a, b] = projectPolygon(view, ends);
+        if (!b) continue;
+        c.moveTo(a.x, a.y);
+        c.lineTo(b.x, b.y);
+      }
+      c.stroke();
+    };
+    strokes(cloud.guides, ...guidePaint(theme));
+    for (const { pairs, rgb, alpha, breadth } of cloud.lines(theme)) {
+      strokes(pairs.map((pair) => pair.map((vertex) => cloud.position(vertex))), rgb, alpha, breadth);
+    }
+    const balls = [];
+    for (let i = 0; i < cloud.vertices.length / 3; i++) {
+      const p = project(view, cloud.position(i));
+      if (p.depth > view.near && !cloud.hidden(i)) balls.push({ ...p, i });
+    }
+    balls.sort((a, b) => b.depth - a.depth);
+    for (const ball of balls) this.drawBall(cloud, theme, view, ball);
+  }
+
+  drawBall(cloud, theme, view, { x, y, depth, i }) {
+    const c = this.context;
+    const kind = cloud.kind(i);
+    const least = (kind === VERTEX.particle ? 0.5 : 1.1) * LEAST_DOT;
+    const radius = Math.max((cloud.radius * cloud.size(i) * view.focal) / depth, least);
+    const rgb = cloud.rgb(i, theme);
+    c.beginPath();
+    if (kind === VERTEX.fixed) c.rect(x - radius, y - radius, 2 * radius, 2 * radius);
+    else c.arc(x, y, radius, 0, 2 * Math.PI);
+    if (kind !== VERTEX.centre) {
+      c.fillStyle = css(rgb);
+      c.fill();
+    }
+    if (kind === VERTEX.particle && radius > 4) {
+      // The lit side: what the shader does pixel by pixel, in one spot.
+      const spot = c.createRadialGradient(x - 0.3 * radius, y - 0.45 * radius, 0.1 * radius, x, y, radius);
+      spot.addColorStop(0, "rgba(255,255,255,0.3)");
+      spot.addColorStop(1, "rgba(0,0,0,0.25)");
+      c.fillStyle = spot;
+      c.fill();
+    }
+    if (kind === VERTEX.particle && !cloud.isSelected(i)) return;
+    c.strokeStyle = cloud.isSelected(i) ? "#ffffff" : theme.ink;
+    c.lineWidth = Math.max(1, 0.3 * radius);
+    c.stroke();
   }
 
   drawFacet({ points, fill, edge, sharp }) {

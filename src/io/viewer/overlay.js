@@ -6,6 +6,17 @@ const MAX_MARKS = 400;
 const CROWD = 25;
 const MAX_PATHS = 60;
 const PATH_POINTS = 600;
+/** An orbit is a curve of many turns: thinned too far it would cut its corners. */
+const PARTICLE_PATH_POINTS = 3000;
+
+/** The particles whose ways are drawn: those that move, or where they are too many, the one that is selected. */
+function followed(cloud) {
+  const { n, fixed } = cloud.particles;
+  const moving = [];
+  for (let i = 0; i < n && moving.length <= MAX_PATHS; i++) if (!fixed[i] && !cloud.hidden(i)) moving.push(i);
+  if (moving.length <= MAX_PATHS) return moving;
+  return cloud.selected.particle >= 0 ? [cloud.selected.particle] : [];
+}
 
 /** 1 at the mark's time, down to 0 at the end of its hold; a mark shows a little before its time, within one frame. */
 function markStrength(mark, time, hold, lead) {
@@ -121,6 +132,20 @@ class Overlay {
       this.text(short, p.x, p.y - 10, scene.theme);
       this.context.textAlign = "start";
     }
+    if (this.stage.cloud) this.drawParticleNames(this.stage.cloud, scene.theme, view, all);
+  }
+
+  drawParticleNames(cloud, theme, view, all) {
+    const { n, names } = this.recording.particles;
+    let room = MAX_MARKS;
+    for (let i = 0; i < n && room > 0; i++) {
+      const picked = cloud.selected.particle === i;
+      if (!picked && (!all || cloud.hidden(i))) continue;
+      const p = project(view, cloud.position(i));
+      if (!(p.depth > view.near)) continue;
+      this.text(names[i], p.x + 9, p.y - 9, theme);
+      room--;
+    }
   }
 
   /** The way of a centre of mass over the run, thinned; the part already gone is stronger. */
@@ -145,6 +170,44 @@ class Overlay {
         c.stroke();
       }
     }
+    if (this.stage.cloud) this.drawParticlePaths(this.stage.cloud, scene.theme, view, time);
+  }
+
+  drawParticlePaths(cloud, theme, view, time) {
+    const c = this.context;
+    for (const particle of followed(cloud)) {
+      for (const gone of [false, true]) {
+        c.strokeStyle = css(cloud.rgb(particle, theme), gone ? 0.7 : 0.22);
+        c.lineWidth = gone ? 1.6 : 1;
+        c.beginPath();
+        let pen = false;
+        for (const step of this.particlePath(particle)) {
+          if (gone && step.time > time) break;
+          const p = project(view, step.position);
+          const drawn = p.depth > view.near;
+          if (drawn) pen ? c.lineTo(p.x, p.y) : c.moveTo(p.x, p.y);
+          pen = drawn;
+        }
+        const now = project(view, cloud.position(particle));
+        if (gone && pen && now.depth > view.near) c.lineTo(now.x, now.y);
+        c.stroke();
+      }
+    }
+  }
+
+  particlePath(particle) {
+    this.particlePaths ??= new Map();
+    if (!this.particlePaths.has(particle)) {
+      const { frames, particles } = this.recording;
+      const every = Math.max(1, Math.ceil(frames.length / PARTICLE_PATH_POINTS));
+      const kept = frames.filter((_, i) => i % every === 0 || i === frames.length - 1);
+      this.particlePaths.set(particle, kept.map(({ time, frame }) => {
+        const position = [0, 0, 0];
+        particleAt(particles, particle, { from: frame, to: frame, f: 0 }, position, 0);
+        return { time, position };
+      }));
+    }
+    return this.particlePaths.get(particle);
   }
 
   path(body) {

@@ -52,6 +52,53 @@ class BodyList {
   }
 }
 
+/** One row a particle, chain or net: the swatch hides and shows it, the name selects it. */
+class GroupList {
+  constructor(list, cloud, { theme, select, changed }) {
+    this.cloud = cloud;
+    const { groups, fixed } = cloud.particles;
+    this.rows = groups.map((group, g) => {
+      const row = element("li");
+      const swatch = element("button", "swatch");
+      swatch.type = "button";
+      swatch.setAttribute("aria-pressed", "true");
+      swatch.setAttribute("aria-label", `Show ${group.name}`);
+      swatch.title = "Show or hide";
+      swatch.addEventListener("click", () => {
+        const look = cloud.look[g];
+        look.hidden = !look.hidden;
+        cloud.revision++;
+        swatch.setAttribute("aria-pressed", String(!look.hidden));
+        row.classList.toggle("off", look.hidden);
+        changed();
+      });
+      const name = element("button", "name", group.name || "(no name)");
+      name.type = "button";
+      name.title = group.name;
+      name.addEventListener("click", () => select(cloud.selected.group === g ? -1 : g));
+      row.append(swatch, name);
+      const count = group.end - group.begin;
+      if (count > 1) row.append(element("span", "tag", `${count} particles`));
+      else if (fixed[group.begin]) row.append(element("span", "tag", "fixed"));
+      list.append(row);
+      return { row, swatch, name };
+    });
+    this.paint(theme());
+  }
+
+  paint(theme) {
+    this.rows.forEach(({ swatch }, g) => swatch.style.setProperty("--swatch", css(this.cloud.look[g].rgb ?? theme.fixedRgb)));
+  }
+
+  select(group) {
+    this.rows.forEach(({ row, name }, g) => {
+      row.classList.toggle("selected", g === group);
+      name.setAttribute("aria-current", String(g === group));
+    });
+    this.rows[group]?.row.scrollIntoView({ block: "nearest" });
+  }
+}
+
 /** Events by time; only the rows in sight exist, so that a hundred thousand contacts scroll like ten. */
 class EventList {
   constructor(box, kinds, count, recording, jump) {

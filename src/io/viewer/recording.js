@@ -36,6 +36,7 @@ function loadRecording() {
     bodies: index.bodies,
     shapes: index.shapes,
     poses: block("ga-poses", "Float32"),
+    particles: loadParticles(index.particles, block("ga-points", "Float32")),
     frames: timed(block("ga-times", "Float64"), 1, (row, frame) => ({ time: row[0], frame })),
     marks: timed(block("ga-marks", "Float64"), 8, (row, i) => ({
       time: row[0],

@@ -48,13 +48,27 @@ const FACETS_OF_ELLIPSOIDS = 100000;
 /** Positions kept for the first view: a few thousand give the same view as a million. */
 const MAX_VIEW_POINTS = 4000;
 
-/** The box of all poses of the chosen bodies, each widened by its body's radius; null if there is none. */
+/** The box of all poses of the chosen bodies, each widened by its body's radius, and of all particles; null if there is none. */
 function extent(recording, shapes, chosen) {
   const points = [];
-  const every = Math.ceil((recording.frames.length * recording.bodies.length) / MAX_VIEW_POINTS);
+  const { frames, particles } = recording;
+  const every = Math.ceil((frames.length * (recording.bodies.length + particles.n)) / MAX_VIEW_POINTS);
   let n = 0;
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
+  const take = (x, y, z, always) => {
+    if (!Number.isFinite(x + y + z)) return;
+    [low[0], low[1], low[2]] = [Math.min(low[0], x), Math.min(low[1], y), Math.min(low[2], z)];
+    [high[0], high[1], high[2]] = [Math.max(high[0], x), Math.max(high[1], y), Math.max(high[2], z)];
+    if (n++ % every === 0 || always) points.push({ position: [x, y, z], radius: 0 });
+  };
+  for (const { frame } of frames) {
+    const begin = 3 * frame * particles.n;
+    for (let i = begin; i < begin + 3 * particles.n; i += 3) {
+      take(particles.positions[i], particles.positions[i + 1], particles.positions[i + 2], false);
+    }
+  }
+  for (const point of stillPoints(particles)) take(...point, true);
   recording.bodies.forEach((body, i) => {
     if (!chosen(body, shapes[body.shape])) return;
     const radius = shapes[body.shape]?.radius ?? 0;
@@ -91,9 +105,11 @@ class Stage {
     const radii = recording.bodies.filter((body) => !body.fixed).map((body) => this.shapes[body.shape]?.radius ?? 0);
     const middling = radii.sort((a, b) => a - b)[radii.length >> 1] ?? 0;
     this.arrow = clamp(2 * middling, 0.05 * this.radius, 0.3 * this.radius);
-    this.hasPlane = recording.bodies.some((body) => this.shapes[body.shape]?.plane);
+    this.guidePlanes = recording.particles.guides.filter((guide) => guide.plane && direction(guide.plane.normal));
+    this.hasPlane = this.guidePlanes.length > 0 || recording.bodies.some((body) => this.shapes[body.shape]?.plane);
     let moving = 0;
     this.look = recording.bodies.map((body) => ({ hidden: false, rgb: body.fixed ? null : bodyColour(moving++) }));
+    this.cloud = recording.particles.n > 0 ? new Cloud(recording.particles, this, () => bodyColour(moving++)) : null;
     this.selected = -1;
   }
 
@@ -114,7 +130,9 @@ class Stage {
       if (shape.plane) planes.push(this.patch(pose.position, rotate(pose.quaternion, shape.plane), body.fixed ? null : item.rgb));
       else items.push(item);
     });
+    for (const { plane } of this.guidePlanes) planes.push({ ...this.patch(plane.point, direction(plane.normal), rgbaOfCss(theme.accent).slice(0, 3)), light: true });
     if (!this.hasPlane) planes.push(this.referenceGrid());
+    this.cloud?.moveTo(between);
     return { items, planes, shapes: this.shapes, theme, stage: this };
   }
 

@@ -3,6 +3,8 @@
 /** A run shorter or longer than this plays, at first, in FITTED_S seconds instead of at real speed. */
 const REAL_TIME_S = [1, 60];
 const FITTED_S = 10;
+/** Up to so many particles in motion, their ways are drawn without being asked for: an orbit is its way. */
+const FOLLOWED = 12;
 /** For how long a contact mark stays, in seconds of the viewer's time. */
 const MARK_HOLD_S = 0.35;
 
@@ -26,6 +28,12 @@ class Viewer {
     this.bodies = new BodyList(byId("bodies"), this.stage, this.recording, {
       theme: () => this.theme, select: (i) => this.select(i), changed: () => this.changed(),
     });
+    const { cloud } = this.stage;
+    this.groups = cloud && new GroupList(byId("bodies"), cloud, {
+      theme: () => this.theme, select: (g) => this.selectParticle(g, -1), changed: () => this.changed(),
+    });
+    const moving = this.recording.particles.fixed.filter((fixed) => !fixed).length;
+    byId("show-paths").checked = moving > 0 && moving <= FOLLOWED;
     this.events = new EventList(byId("events"), byId("kinds"), byId("n-events"), this.recording, (mark) => this.jumpTo(mark));
     this.writeHeader();
     this.connectTransport();
@@ -59,12 +67,16 @@ class Viewer {
     byId("scene").textContent = recording.scene;
     byId("scene").title = recording.scene;
     const count = (n, one) => `${n} ${one}${n === 1 ? "" : "s"}`;
-    const facts = [count(recording.bodies.length, "body").replace("bodys", "bodies"), count(recording.frames.length, "frame")];
+    const { bodies, particles } = recording;
+    const facts = [count(recording.frames.length, "frame")];
+    if (particles.n > 0) facts.unshift(count(particles.n, "particle"));
+    if (bodies.length > 0 || particles.n === 0) facts.unshift(count(bodies.length, "body").replace("bodys", "bodies"));
     if (recording.duration > 0) facts.push(`${show(recording.duration)} s`);
     if (this.renderer.name === "canvas2d") facts.push("2D fallback");
     byId("facts").textContent = facts.join(" · ");
     byId("energy-panel").hidden = recording.energy.length === 0;
-    byId("n-bodies").textContent = String(recording.bodies.length);
+    byId("n-bodies").textContent = String(bodies.length + particles.n);
+    byId("things").textContent = particles.n === 0 ? "Bodies" : bodies.length === 0 ? "Particles" : "Bodies and particles";
   }
 
   connectTransport() {
@@ -129,6 +141,7 @@ class Viewer {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
       this.theme = readTheme();
       this.bodies.paint(this.theme);
+      this.groups?.paint(this.theme);
       this.resized = true;
       this.changed();
     });
@@ -141,6 +154,11 @@ class Viewer {
 
   pick(x, y) {
     const { view } = this;
+    const particle = this.stage.cloud?.pick(view, x, y) ?? -1;
+    if (particle >= 0) {
+      this.selectParticle(this.stage.cloud.groupOf[particle], particle);
+      return;
+    }
     const ray = direction(add(view.forward, add(
       scale(view.right, (x - view.width / 2) / view.focal),
       scale(view.up, (view.height / 2 - y) / view.focal))));
@@ -148,9 +166,20 @@ class Viewer {
   }
 
   select(body) {
+    this.stage.cloud?.select(-1, -1);
+    this.groups?.select(-1);
     this.stage.selected = body;
     this.bodies.select(body);
     this.changed();
+  }
+
+  /** A particle, or all of a group. A group of one is its particle. */
+  selectParticle(group, particle) {
+    this.select(-1);
+    const { cloud } = this.stage;
+    const { begin, end } = cloud.particles.groups[group] ?? {};
+    cloud.select(group, particle < 0 && end - begin === 1 ? begin : particle);
+    this.groups.select(group);
   }
 
   toggle() {
@@ -263,20 +292,32 @@ class Viewer {
 
   /** Where the selected body is, in world coordinates. */
   writeReadout() {
-    const { selected } = this.stage;
     const readout = byId("readout");
-    readout.hidden = selected < 0;
-    if (selected < 0) return;
-    const body = this.recording.bodies[selected];
-    const pose = poseAt(this.recording, selected, bracket(this.recording, this.time));
-    const name = element("bdi", "name", body.name || "(no name)");
+    const chosen = this.chosen();
+    readout.hidden = !chosen;
+    if (!chosen) return;
+    const name = element("bdi", "name", chosen.name || "(no name)");
     // Digits down to a ten-thousandth of the scene: further ones would be noise of the drawing's f32.
     const decimals = clamp(4 - Math.ceil(Math.log10(this.stage.radius)), 0, 9);
     const number = (x) => x.toFixed(decimals).replace("-", "−");
-    const place = pose
-      ? `x ${number(pose.position[0] + this.recording.centre[0])}  y ${number(pose.position[1] + this.recording.centre[1])}  z ${number(pose.position[2] + this.recording.centre[2])} m`
-      : "no finite pose at this time";
-    readout.replaceChildren(name, element("span", "", place));
+    const [x, y, z] = (chosen.position ?? []).map((c, i) => number(c + this.recording.centre[i]));
+    const place = chosen.position ? `x ${x}  y ${y}  z ${z} m` : "no finite position at this time";
+    readout.replaceChildren(name, element("span", "", chosen.text ?? place));
+  }
+
+  /** Name and place of what is selected; null if nothing is. */
+  chosen() {
+    const { selected, cloud } = this.stage;
+    if (selected >= 0) {
+      const pose = poseAt(this.recording, selected, bracket(this.recording, this.time));
+      return { name: this.recording.bodies[selected].name, position: pose?.position };
+    }
+    const { group, particle } = cloud?.selected ?? { group: -1 };
+    if (group < 0) return null;
+    const { names, groups } = cloud.particles;
+    if (particle < 0) return { name: groups[group].name, text: `${groups[group].end - groups[group].begin} particles` };
+    const position = cloud.position(particle);
+    return { name: names[particle], position: allFinite(position) ? position : null };
   }
 }
 
@@ -307,6 +348,16 @@ try {
     worldPoint(body, point) {
       const pose = poseAt(viewer.recording, body, bracket(viewer.recording, viewer.time));
       return pose && add(pose.position, rotate(pose.quaternion, point));
+    },
+    /** Where a particle is in the picture, in pixels from its top left. */
+    particlePixel(particle) {
+      const { x, y } = project(viewer.view, viewer.stage.cloud.position(particle));
+      return [x, y];
+    },
+    /** Where a particle is at the present time, relative to the scene's centre. */
+    particlePoint(particle) {
+      viewer.stage.cloud.moveTo(bracket(viewer.recording, viewer.time));
+      return viewer.stage.cloud.position(particle);
     },
   };
 } catch (error) {

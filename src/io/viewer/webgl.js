@@ -115,6 +115,7 @@ class WebGlRenderer {
     this.body = compile(gl, BODY_VERTEX, BODY_FRAGMENT);
     this.plane = compile(gl, PLANE_VERTEX, PLANE_FRAGMENT);
     this.meshes = stage.shapes.map((shape) => (shape && !shape.plane ? this.upload(shape) : null));
+    this.cloud = stage.cloud ? new WebGlCloud(gl, stage) : null;
     this.quad = gl.createVertexArray();
     gl.bindVertexArray(this.quad);
     this.buffer(new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
@@ -168,6 +169,7 @@ class WebGlRenderer {
     const clip = clipMatrix(view);
     this.fillInstances(scene, view);
     this.drawBodies(clip);
+    this.cloud?.draw(scene, view, clip, pixelRatio);
     gl.enable(gl.BLEND);
     gl.depthMask(false);
     for (const plane of scene.planes) this.drawPlane(scene, view, clip, plane);
@@ -226,11 +228,11 @@ class WebGlRenderer {
     gl.uniform2fv(plane.at("phase"), patch.phase);
     gl.uniform1f(plane.at("size"), patch.size);
     gl.uniform1f(plane.at("gap"), stage.gridStep);
-    gl.uniform4f(plane.at("fill"), ...rgb, patch.solid ? planeOpacity(front) : 0);
+    gl.uniform4f(plane.at("fill"), ...rgb, patch.solid ? planeOpacity(front && !patch.light) : 0);
     gl.uniform4fv(plane.at("line"), theme.gridRgba);
     gl.bindVertexArray(this.quad);
     gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
-    if (patch.solid && front && takesShadow(patch)) this.drawShadows(theme, centre, patch, clip);
+    if (patch.solid && !patch.light && front && takesShadow(patch)) this.drawShadows(theme, centre, patch, clip);
   }
 
   /** Bodies flattened along the light; the stencil lets overlapping facets darken a pixel once. */
