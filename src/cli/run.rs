@@ -1,15 +1,16 @@
 //! `ga-physics run`: load, build, simulate with a progress bar, write the files, print the table.
 
 use super::Failure;
+use super::explain::explain;
 use super::playback::{Cast, playback};
 use crate::algebra::Real;
 use crate::io::files::{WriteError, write_whole};
 use crate::io::html;
-use crate::io::summary::{self, ParticleSettings, Settings, Summary};
+use crate::io::summary::{self, ParticleSettings, ParticleWork, Settings, Summary};
 use crate::io::tables;
-use crate::particle::Particles;
+use crate::particle::{Motion, Particles};
 use crate::rigid::Bodies;
-use crate::rigid::rotor::{AdvanceError, MAX_TURN_RAD};
+use crate::rigid::rotor::MAX_TURN_RAD;
 use crate::scene::build::{Built, build};
 use crate::scene::description::{Constraint, Force, Method, Scalar};
 use crate::scene::plan::{self, SolverPlan};
@@ -54,14 +55,19 @@ fn run_in<T: Real>(options: &Options, scene: &Scene, source: SceneSource) -> Res
     let out = options.out.clone().unwrap_or_else(|| Path::new("out").join(scene_name(&options.scene)));
     // Before the run: a directory that cannot be made should not cost a simulation.
     std::fs::create_dir_all(&out).map_err(|source| WriteError { path: out.clone(), source })?;
+    let mut world = World::new(setup);
+    if let Some(particles) = particles {
+        let solver = SolverPlan::of(scene).of_particles(plan::interval_s(scene));
+        let motion = particles.motion(&solver).map_err(|reason| Failure::input(reason.to_string()))?;
+        world = world.with_particles(motion);
+    }
     let bar = progress(options.quiet, plan::steps(scene));
     let started = Instant::now();
-    let mut world = World::new(setup);
     let mut record = Record::default();
     let (steps, outcome) = simulate(&mut world, &mut record, scene, &bar);
     let wall_s = started.elapsed().as_secs_f64();
     bar.finish_and_clear();
-    let failure = outcome.err().map(|error| explain(&error, &cast.bodies));
+    let failure = outcome.err().map(|error| explain(&error, &world, &cast));
     let summary = summarise(options, scene, &source, &cast, &world, &record, steps, wall_s, failure.clone());
     write_files(&out, &cast, &record, &summary)?;
     if !options.quiet {
@@ -120,28 +126,6 @@ fn simulate<T: Real>(
     (steps, Ok(()))
 }
 
-fn explain(error: &SimulationError, names: &[String]) -> String {
-    match error {
-        SimulationError::StaysInContact { a, b, time_s } => format!(
-            "bodies `{}` and `{}` stay in contact from {time_s:.6} s on: their bounces follow one another without end, and \
-             resting contact is not modelled; end the run before (`duration_s`), or raise `contact.restitution`",
-            names[*a], names[*b]
-        ),
-        SimulationError::OutOfRange { body_idx, time_s } => format!(
-            "the motion of body `{}` left the range of the numbers at {time_s:.6} s: a force or drag is too stiff for the \
-             step, or a velocity too large; take a smaller `dt_s`",
-            names[*body_idx]
-        ),
-        SimulationError::Advance(AdvanceError::Spin { body_idx, time_s, omega_rad_s, dt_s }) => format!(
-            "body `{}` spins at {omega_rad_s:e} rad/s at {time_s:.6} s, too fast for a step of {dt_s} s; take a smaller `dt_s`",
-            names[*body_idx]
-        ),
-        SimulationError::Advance(AdvanceError::Orientation { body_idx, time_s, .. }) => {
-            format!("the orientation of body `{}` is lost at {time_s:.6} s; take a smaller `dt_s`", names[*body_idx])
-        }
-    }
-}
-
 #[expect(clippy::too_many_arguments, reason = "a summary is made of everything there is")]
 fn summarise<T: Real>(
     options: &Options,
@@ -170,10 +154,13 @@ fn summarise<T: Real>(
         angular_momentum_drift_rel: drifts.angular_momentum.filter(|_| conserved.angular_momentum),
         max_penetration_m: record.max_penetration(),
         max_violation_m: record.max_violation(),
-        particle_work: None,
+        particle_work: world.particles().map(particle_work),
         state_bytes_per_body: Bodies::<T>::bytes_per_body(),
         state_bytes_per_particle: Particles::<T>::bytes_per_particle(),
-        state_hash: format!("{:016x}", state_hash(world.bodies(), &Particles::default())),
+        state_hash: format!(
+            "{:016x}",
+            state_hash(world.bodies(), world.particles().map_or(&Particles::default(), Motion::state))
+        ),
         failure,
         settings: Settings {
             duration_s: *scene.duration_s.get_ref(),
@@ -192,15 +179,27 @@ fn summarise<T: Real>(
     }
 }
 
+fn particle_work<T: Real>(motion: &Motion<T>) -> ParticleWork {
+    let work = motion.work();
+    ParticleWork {
+        constraints: motion.system().setup().constraints.len(),
+        redundant_constraints: motion.system().redundant(),
+        rhs_evals: work.rhs_evals,
+        accepted_steps: work.accepted,
+        rejected_steps: work.rejected,
+    }
+}
+
 fn particle_settings(solver: &SolverPlan) -> ParticleSettings {
-    let adaptive = |tolerance: f64| solver.method.is_adaptive().then_some(tolerance);
+    let adaptive = |tolerance: f64| solver.adaptive.then_some(tolerance);
     ParticleSettings {
         method: solver.method.name().into(),
         rtol: adaptive(solver.rtol),
         atol: adaptive(solver.atol),
         constraints: solver.constraints.name().into(),
         stabilisation: solver.stabilisation.name().into(),
-        substeps: (solver.method == Method::Xpbd).then_some(solver.substeps),
+        violation: solver.violation,
+        substeps: solver.substeps.filter(|_| solver.method == Method::Xpbd),
     }
 }
 

@@ -75,7 +75,9 @@ pub struct ParticleSettings {
     pub constraints: String,
     /// What keeps particles on their constraints.
     pub stabilisation: String,
-    /// Substeps a step; null if the method has none.
+    /// The violation that is left, relative to the shortest length that is held.
+    pub violation: f64,
+    /// Substeps a step; null if the method has none, or chose them.
     pub substeps: Option<u32>,
 }
 

@@ -25,10 +25,11 @@ use alloc::vec::Vec;
 use core::fmt;
 use num_dual::{Dual2_64, Dual64, DualNum};
 
-/// A number with which a function can be differentiated: arithmetic, roots, `sin`, `exp` and the like.
-pub trait Differentiable: Scalar + DualNum {}
+/// A number with which a function can be differentiated: arithmetic, roots, `sin`, `exp` and the like; `S::from(0.5)` is a
+/// constant.
+pub trait Differentiable: Scalar + DualNum<Primitive = f64> {}
 
-impl<S: Scalar + DualNum> Differentiable for S {}
+impl<S: Scalar + DualNum<Primitive = f64>> Differentiable for S {}
 
 /// The function C of a constraint `C(x) = 0`.
 pub trait ConstraintFunction: Send + Sync + 'static {

@@ -10,6 +10,6 @@ mod run_ahead;
 mod world;
 
 pub use event::{Event, EventKind};
-pub use record::{BodySample, Drifts, EnergySample, Frame, ParticleSample, Record, particle_samples, state_hash};
+pub use record::{BodySample, Drifts, EnergySample, Frame, ParticleSample, Record, state_hash};
 pub use run_ahead::{Next, RunAhead};
 pub use world::{Setup, SimulationError, World};

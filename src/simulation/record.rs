@@ -31,8 +31,7 @@ pub struct ParticleSample {
 }
 
 /// All particles of a state.
-#[must_use]
-pub fn particle_samples<T: Real>(state: &Particles<T>) -> Vec<ParticleSample> {
+fn particle_samples<T: Real>(state: &Particles<T>) -> Vec<ParticleSample> {
     let sample = |(position, velocity): (&Point<f64>, &Vector<T>)| ParticleSample {
         position: *position,
         velocity: velocity.map(Real::to_f64),
@@ -92,12 +91,15 @@ pub struct Record {
 
 impl Record {
     /// Takes note of the state: for the drifts always, as a frame if asked.
-    pub fn observe<T: Real>(&mut self, world: &World<T>, keep_frame: bool) {
+    pub fn observe<T: Real>(&mut self, world: &mut World<T>, keep_frame: bool) {
+        if let Some(violation_m) = world.worst_violation() {
+            self.note_violation(violation_m);
+        }
         self.note(world.time_s(), world.totals(), keep_frame, || frame(world));
     }
 
     /// Takes note of a state with these sums: for the drifts always, as a frame if asked.
-    pub fn note(&mut self, time_s: f64, totals: Totals, keep_frame: bool, frame: impl FnOnce() -> Frame) {
+    fn note(&mut self, time_s: f64, totals: Totals, keep_frame: bool, frame: impl FnOnce() -> Frame) {
         let start = *self.start.get_or_insert(totals);
         self.energy_error = self.energy_error.max((totals.energy() - start.energy()).abs());
         self.momentum_error = self.momentum_error.max((totals.momentum - start.momentum).norm_sq().sqrt());
@@ -114,7 +116,7 @@ impl Record {
     }
 
     /// Takes note of how far the constraints are violated, m.
-    pub fn note_violation(&mut self, violation: f64) {
+    fn note_violation(&mut self, violation: f64) {
         self.max_violation = Some(self.max_violation.unwrap_or_default().max(violation));
     }
 
@@ -150,7 +152,8 @@ fn frame<T: Real>(world: &World<T>) -> Frame {
         velocity: bodies.velocity(index, &inertias[index]).map(Real::to_f64),
         omega_world: bodies.omega_world(index, &inertias[index]).map(Real::to_f64),
     };
-    Frame { time_s: world.time_s(), bodies: (0..bodies.len()).map(sample).collect(), particles: Vec::new() }
+    let particles = world.particles().map(|particles| particle_samples(particles.state())).unwrap_or_default();
+    Frame { time_s: world.time_s(), bodies: (0..bodies.len()).map(sample).collect(), particles }
 }
 
 /// FNV-1a over the bits of the state, bodies first: equal states, equal hashes, on every machine.

@@ -3,6 +3,8 @@
 use super::{Event, EventKind};
 use crate::algebra::Real;
 use crate::collision::{self, Collider, Contact, NarrowPhase, Reach, Scenery};
+use crate::ode::OdeError;
+use crate::particle::{Motion, MotionError};
 use crate::rigid::rotor::{AdvanceError, Integrator};
 use crate::rigid::{Bodies, Forces, Inertia, Totals, totals};
 use alloc::collections::BTreeMap;
@@ -19,8 +21,11 @@ const IMPACT_WIDTH: f64 = 1e-11;
 const PERSISTING_IMPACTS: usize = 64;
 
 /// Why a run ends early.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 pub enum SimulationError {
+    /// The particles cannot go on.
+    #[error(transparent)]
+    Particles(#[from] OdeError<MotionError>),
     /// The motion cannot be continued.
     #[error(transparent)]
     Advance(#[from] AdvanceError),
@@ -60,9 +65,10 @@ pub struct Setup<T> {
 }
 
 /// A running simulation.
-#[derive(Clone, Debug)]
 pub struct World<T: Real> {
     setup: Setup<T>,
+    /// Bodies and particles do not act on each other.
+    particles: Option<Motion<T>>,
     trial: Bodies<T>,
     integrator: Integrator<T>,
     narrow_phase: NarrowPhase<T>,
@@ -85,6 +91,7 @@ impl<T: Real> World<T> {
         let pairs = indices.iter().flat_map(|a| indices.iter().map(move |b| (*a, *b)));
         let pairs = pairs.filter(|(a, b)| a < b && (moves(*a) || moves(*b))).collect();
         Self {
+            particles: None,
             trial: setup.bodies.clone(),
             integrator: Integrator::new(&setup.bodies),
             narrow_phase: NarrowPhase::default(),
@@ -97,10 +104,27 @@ impl<T: Real> World<T> {
         }
     }
 
+    /// The same with particles, which start at time 0 as well.
+    #[must_use]
+    pub fn with_particles(self, particles: Motion<T>) -> Self {
+        Self { particles: Some(particles), ..self }
+    }
+
     /// The time, s.
     #[must_use]
     pub fn time_s(&self) -> f64 {
         self.time_s
+    }
+
+    /// The particles, if there are any.
+    #[must_use]
+    pub fn particles(&self) -> Option<&Motion<T>> {
+        self.particles.as_ref()
+    }
+
+    /// The worst violation of a constraint, m; none without constraints.
+    pub fn worst_violation(&mut self) -> Option<f64> {
+        Some(self.particles.as_mut()?.worst_violation()?.1)
     }
 
     /// The state.
@@ -124,7 +148,9 @@ impl<T: Real> World<T> {
     /// Energy and momenta.
     #[must_use]
     pub fn totals(&self) -> Totals {
-        totals(&self.setup.bodies, &self.setup.inertias, self.setup.forces.gravity)
+        let mut sums = totals(&self.setup.bodies, &self.setup.inertias, self.setup.forces.gravity);
+        sums += self.particles.as_ref().map(Motion::totals).unwrap_or_default();
+        sums
     }
 
     /// The pairs that overlap in the state as it is, and how deep, m: for a scene at its start, there must be none.
@@ -176,6 +202,18 @@ impl<T: Real> World<T> {
     /// # Errors
     /// Contact that persists, motion that cannot be continued. The state is then the last good one.
     pub fn advance_to(&mut self, end_s: f64, events: &mut Vec<Event>) -> Result<(), SimulationError> {
+        let Some(particles) = &mut self.particles else {
+            return self.advance_bodies_to(end_s, events);
+        };
+        let moved = particles.advance_to(end_s);
+        let reached_s = particles.time_s().max(self.time_s);
+        if reached_s > self.time_s {
+            self.advance_bodies_to(reached_s, events)?;
+        }
+        Ok(moved?)
+    }
+
+    fn advance_bodies_to(&mut self, end_s: f64, events: &mut Vec<Event>) -> Result<(), SimulationError> {
         let step_s = end_s - self.time_s;
         loop {
             let rest_s = end_s - self.time_s;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::algebra::Real;
 use crate::algebra::cga::Point;
 use crate::algebra::g3::Vector;
-use crate::particle::{Constraint, Force, Particles};
+use crate::particle::{Constraint, Force, Masses, Motion, Particles, Setup, Solver, SolverError};
 use crate::scene::Diagnostic;
 use crate::scene::description::{self, Scene};
 use crate::scene::particles::{Held, Roster, held};
@@ -27,6 +27,19 @@ pub struct ParticleSetup<T> {
     pub names: Vec<String>,
     /// How they are drawn.
     pub look: ParticleLook,
+}
+
+impl<T: Real> ParticleSetup<T> {
+    /// The particles, ready to move.
+    ///
+    /// # Errors
+    /// A solver that cannot be used.
+    pub fn motion(self, solver: &Solver) -> Result<Motion<T>, SolverError> {
+        let inverse = |(mass, fixed): (&T, &bool)| if *fixed { T::zero() } else { T::one() / *mass };
+        let inv_mass = self.mass.iter().zip(&self.fixed).map(inverse).collect();
+        let masses = Masses { mass: self.mass, inv_mass };
+        Motion::new(Setup { masses, forces: self.forces, constraints: self.constraints }, self.state, solver)
+    }
 }
 
 /// What is drawn besides the particles themselves.

@@ -1,5 +1,6 @@
 //! How the motion is solved.
 
+use crate::particle;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -14,8 +15,8 @@ pub struct Solver {
     /// The integrator of the particles. Without it the plan chooses one, and says why.
     #[schemars(with = "Option<Method>")]
     pub method: Option<Spanned<Method>>,
-    /// The error that a step may make relative to a coordinate or velocity, dimensionless; for methods that choose their
-    /// steps.
+    /// The error that a step may make relative to a coordinate or velocity, dimensionless. With it a method that can
+    /// chooses its steps; without it, and with `dt_s`, it makes steps of `dt_s`, as for a recording.
     #[schemars(with = "Option<f64>", extend("exclusiveMinimum" = 0))]
     pub rtol: Option<Spanned<f64>>,
     /// The error that a step may make where a coordinate or velocity is near zero, in m and m/s.
@@ -27,7 +28,11 @@ pub struct Solver {
     /// What keeps particles on their constraints against the errors of the steps.
     #[serde(default)]
     pub stabilisation: Stabilisation,
-    /// Substeps a step of `xpbd`. At least 1.
+    /// The largest violation of a constraint that projection and `xpbd` leave, relative to the shortest length that is
+    /// held. Default 1e-12, with sweeps 1e-2.
+    #[schemars(with = "Option<f64>", extend("exclusiveMinimum" = 0))]
+    pub violation: Option<Spanned<f64>>,
+    /// Substeps a step of `xpbd`. At least 1. Default: with sweeps, as many as hold the violation at rest; else 1.
     #[schemars(with = "Option<u32>", range(min = 1))]
     pub substeps: Option<Spanned<u32>>,
 }
@@ -51,13 +56,13 @@ pub enum Method {
     Euler,
     /// The classical Runge-Kutta method, order 4, steps of `dt_s`.
     Rk4,
-    /// The classical Runge-Kutta method; steps are chosen by comparing one with two halves.
+    /// The classical Runge-Kutta method; with `rtol` steps are chosen by comparing one with two halves.
     Rk4Doubling,
-    /// Cash and Karp's Runge-Kutta pair, order 5(4); steps are chosen.
+    /// Cash and Karp's Runge-Kutta pair, order 5(4); steps are chosen with `rtol`.
     CashKarp,
-    /// Tsitouras' Runge-Kutta pair, order 5(4); steps are chosen.
+    /// Tsitouras' Runge-Kutta pair, order 5(4); steps are chosen with `rtol`.
     Tsit5,
-    /// Dormand and Prince's Runge-Kutta method of order 8; steps are chosen.
+    /// Dormand and Prince's Runge-Kutta method of order 8; steps are chosen with `rtol`.
     Dop853,
     /// Velocity Verlet, order 2, steps of `dt_s`; with constraints RATTLE. Keeps energy over long times.
     Verlet,
@@ -65,31 +70,37 @@ pub enum Method {
     Yoshida4,
     /// Yoshida's composition of seven Verlet steps, order 6, steps of `dt_s`.
     Yoshida6,
-    /// Extended position-based dynamics: for large nets, fast rather than accurate; steps of `dt_s`.
+    /// Extended position-based dynamics, order 1, steps of `dt_s`: for large nets, and where a net snaps taut.
     Xpbd,
 }
 
 impl Method {
-    /// Whether it chooses its steps by their error.
+    /// Whether it estimates its error, and so can choose its steps.
     #[must_use]
     pub fn is_adaptive(self) -> bool {
-        matches!(self, Self::Rk4Doubling | Self::CashKarp | Self::Tsit5 | Self::Dop853)
+        self.of_particles().is_adaptive()
     }
 
     /// As it is written in a scene.
     #[must_use]
     pub fn name(self) -> &'static str {
+        self.of_particles().name()
+    }
+
+    /// The same for particles.
+    #[must_use]
+    pub fn of_particles(self) -> particle::Method {
         match self {
-            Self::Euler => "euler",
-            Self::Rk4 => "rk4",
-            Self::Rk4Doubling => "rk4_doubling",
-            Self::CashKarp => "cash_karp",
-            Self::Tsit5 => "tsit5",
-            Self::Dop853 => "dop853",
-            Self::Verlet => "verlet",
-            Self::Yoshida4 => "yoshida4",
-            Self::Yoshida6 => "yoshida6",
-            Self::Xpbd => "xpbd",
+            Self::Euler => particle::Method::Euler,
+            Self::Rk4 => particle::Method::Rk4,
+            Self::Rk4Doubling => particle::Method::Rk4Doubling,
+            Self::CashKarp => particle::Method::CashKarp,
+            Self::Tsit5 => particle::Method::Tsit5,
+            Self::Dop853 => particle::Method::Dop853,
+            Self::Verlet => particle::Method::Verlet,
+            Self::Yoshida4 => particle::Method::Yoshida4,
+            Self::Yoshida6 => particle::Method::Yoshida6,
+            Self::Xpbd => particle::Method::Xpbd,
         }
     }
 }
@@ -102,6 +113,8 @@ pub enum ConstraintSolver {
     Direct,
     /// Conjugate gradients, as in the report.
     ConjugateGradients,
+    /// Not at all: link by link, again and again. For `xpbd`, which without it corrects all at once.
+    Sweeps,
 }
 
 impl ConstraintSolver {
@@ -111,6 +124,7 @@ impl ConstraintSolver {
         match self {
             Self::Direct => "direct",
             Self::ConjugateGradients => "conjugate_gradients",
+            Self::Sweeps => "sweeps",
         }
     }
 }

@@ -5,7 +5,7 @@ mod solver;
 mod steps;
 
 pub use solver::SolverPlan;
-pub use steps::{DEFAULT_RECORD_HZ, chooses_steps, interval_s, record_hz, steps};
+pub use steps::{DEFAULT_RECORD_HZ, adapts, chooses_steps, interval_s, record_hz, steps};
 
 use crate::particle::Particles;
 use crate::rigid::Bodies;

@@ -1,7 +1,7 @@
 //! What the particles of a scene need.
 
 use super::{Plan, scalar_name};
-use crate::scene::description::{Force, Method, Scene, Stabilisation};
+use crate::scene::description::{ConstraintSolver, Force, Method, Scene, Stabilisation};
 use crate::scene::particles::{Held, Roster, held};
 
 /// What there is to be simulated, counted.
@@ -41,7 +41,7 @@ impl Census {
 
 impl Plan {
     pub(super) fn chooses_steps(&self) -> bool {
-        self.bodies == 0 && self.particle_solver.as_ref().is_some_and(|solver| solver.method.is_adaptive())
+        self.bodies == 0 && self.particle_solver.as_ref().is_some_and(|solver| solver.adaptive)
     }
 
     pub(super) fn particles(&mut self, scene: &Scene, census: &Census) {
@@ -53,18 +53,22 @@ impl Plan {
         self.model("particles", format!("{scalar} with f64 world positions"));
         self.model("solver", format!("`{name}`: {}", solver.why));
         let how = format!("rtol {:e}, atol {:e} m and m/s, the largest of all errors", solver.rtol, solver.atol);
-        self.choose(solver.method.is_adaptive(), "step control", &how, &format!("`{name}` makes steps of `dt_s`"));
+        self.choose(solver.adaptive, "step control", &how, &format!("`{name}` makes steps of `dt_s`"));
         let stabilised = match solver.stabilisation {
             Stabilisation::Projection => "projected after each step",
             Stabilisation::Baumgarte => "damped by Baumgarte's terms",
             Stabilisation::None => "not stabilised",
         };
         let how = match solver.method {
-            Method::Xpbd => format!("{}, by {} substeps a step", census.constraints, solver.substeps),
+            Method::Xpbd if solver.constraints == ConstraintSolver::Sweeps => {
+                format!("{}, swept one by one, violation {:e}", census.constraints, solver.violation)
+            }
+            Method::Xpbd => format!("{}, corrected all at once, violation {:e}", census.constraints, solver.violation),
             _ => format!(
-                "{}, multipliers by {}, {stabilised}",
+                "{}, multipliers by {}, {stabilised}, violation {:e}",
                 census.constraints,
-                solver.constraints.name().replace('_', " ")
+                solver.constraints.name().replace('_', " "),
+                solver.violation
             ),
         };
         self.choose(census.constraints > 0, "constraints", &how, "nothing holds a particle");
@@ -83,7 +87,7 @@ impl Plan {
             self.leave_out("bodies and particles", "they do not act on each other yet");
         }
         self.leave_out("collisions of particles", "not modelled: particles pass through one another");
-        if scene.solver.rtol.is_some() && !solver.method.is_adaptive() {
+        if scene.solver.rtol.is_some() && !solver.adaptive {
             self.leave_out("tolerances", &format!("`{name}` does not control its error"));
         }
         if scene.solver.substeps.is_some() && solver.method != Method::Xpbd {

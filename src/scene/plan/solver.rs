@@ -1,6 +1,9 @@
 //! Which solver the particles of a scene get, where the scene leaves it open.
 
+use super::adapts;
 use super::particles::Census;
+use crate::ode::Tolerance;
+use crate::particle::{self, LinearSolver, Steps};
 use crate::scene::description::{ConstraintSolver, Method, Scalar, Scene, Stabilisation};
 use serde::Serialize;
 
@@ -10,13 +13,23 @@ const RTOL_F32: f64 = 1e-5;
 /// Below this relative tolerance DOP853 takes fewer evaluations than Tsit5: on a Kepler orbit of eccentricity 0.6, 1478
 /// against 1773 for a final error of 1e-6, 2514 against 9670 for 1e-9.
 const HIGH_ORDER_BELOW: f64 = 1e-6;
-/// From so many constraints on a step that solves for all forces at once takes longer than a frame of a display, and
-/// the plan takes XPBD.
-const XPBD_FROM: usize = 20_000;
+/// From so many constraints on, a step that solves for all forces at once takes longer than a frame of a display, and
+/// the plan takes sweeps.
+const SWEEPS_FROM: usize = 20_000;
+/// Up to so many constraints the plan takes a method of high order. More are nets: where those snap taut no high order
+/// helps, and RATTLE goes on.
+const HIGH_ORDER_UP_TO: usize = 64;
 /// Up to so many constraints a sparse factorisation takes less than a second and less than a hundred megabytes.
 const DIRECT_UP_TO: usize = 50_000;
-/// Substeps a step of XPBD: links then stretch by less than 1e-4 in nets that hang.
-const SUBSTEPS: u32 = 20;
+/// Violations that are left where the scene says nothing, relative to the shortest length: what projection reaches from
+/// anywhere, and what is just seen.
+const VIOLATION: f64 = 1e-12;
+const VIOLATION_BY_SWEEPS: f64 = 1e-2;
+/// In f32 velocities err by this in the time of a step: lengths are not better.
+const VIOLATION_F32: f64 = 1e-6;
+
+/// Baumgarte's rate times the step: violations decay within ten steps, far from the limit of stability of any method (2).
+const BAUMGARTE_STEPS: f64 = 0.1;
 
 /// How the motion of the particles is solved: what the scene says, and for the rest what the plan chooses.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -33,8 +46,12 @@ pub struct SolverPlan {
     pub constraints: ConstraintSolver,
     /// What keeps particles on their constraints.
     pub stabilisation: Stabilisation,
-    /// Substeps a step of `xpbd`.
-    pub substeps: u32,
+    /// The violation that is left, relative to the shortest length that is held.
+    pub violation: f64,
+    /// Substeps a step of `xpbd`; none: as many as hold the violation at rest.
+    pub substeps: Option<u32>,
+    /// Steps are chosen by their error; else they are `dt_s`.
+    pub adaptive: bool,
 }
 
 impl SolverPlan {
@@ -44,6 +61,28 @@ impl SolverPlan {
         choose(scene, &Census::of(scene))
     }
 
+    /// The same for particles, with the step of a scene, s.
+    #[must_use]
+    pub fn of_particles(&self, dt_s: f64) -> particle::Solver {
+        let tolerance = Tolerance { rtol: self.rtol, atol: self.atol };
+        particle::Solver {
+            method: self.method.of_particles(),
+            steps: if self.adaptive { Steps::Adaptive { tolerance } } else { Steps::Fixed { dt_s } },
+            linear: match self.constraints {
+                ConstraintSolver::Direct => LinearSolver::Direct,
+                ConstraintSolver::ConjugateGradients => LinearSolver::ConjugateGradients,
+                ConstraintSolver::Sweeps => LinearSolver::Sweeps,
+            },
+            stabilisation: match self.stabilisation {
+                Stabilisation::Projection => particle::Stabilisation::Projection,
+                Stabilisation::Baumgarte => particle::Stabilisation::Baumgarte { rate: BAUMGARTE_STEPS / dt_s },
+                Stabilisation::None => particle::Stabilisation::None,
+            },
+            violation: self.violation,
+            substeps: self.substeps.map(|substeps| substeps as usize),
+        }
+    }
+
     /// Evaluations of the forces a step; none if it depends on the motion.
     pub(super) fn evals_per_step(&self) -> Option<u64> {
         match self.method {
@@ -51,49 +90,59 @@ impl SolverPlan {
             Method::Rk4 => Some(4),
             Method::Yoshida4 => Some(3),
             Method::Yoshida6 => Some(7),
-            Method::Xpbd => Some(u64::from(self.substeps)),
-            Method::Rk4Doubling | Method::CashKarp | Method::Tsit5 | Method::Dop853 => None,
+            Method::Xpbd => self.substeps.map(u64::from),
+            _ if self.adaptive => None,
+            Method::Rk4Doubling => Some(4),
+            Method::CashKarp | Method::Tsit5 => Some(6),
+            Method::Dop853 => Some(12),
         }
     }
 }
 
 pub(super) fn choose(scene: &Scene, census: &Census) -> SolverPlan {
     let given = |value: &Option<toml::Spanned<f64>>| value.as_ref().map(|value| *value.get_ref());
-    let rtol = given(&scene.solver.rtol).unwrap_or(match scene.solver.scalar {
-        Scalar::F64 => RTOL_F64,
-        Scalar::F32 => RTOL_F32,
-    });
+    let single = scene.solver.scalar == Scalar::F32;
+    let rtol = given(&scene.solver.rtol).unwrap_or(if single { RTOL_F32 } else { RTOL_F64 });
     let (method, why) = match &scene.solver.method {
         Some(method) => (*method.get_ref(), "the scene names it".to_owned()),
         None => method(scene, census, rtol),
     };
-    let few = census.constraints <= DIRECT_UP_TO;
+    let constraints = scene.solver.constraints.unwrap_or(match () {
+        () if method == Method::Xpbd => ConstraintSolver::Sweeps,
+        () if census.constraints <= DIRECT_UP_TO => ConstraintSolver::Direct,
+        () => ConstraintSolver::ConjugateGradients,
+    });
+    let least = if single { VIOLATION_F32 } else { VIOLATION };
+    let swept = constraints == ConstraintSolver::Sweeps;
     SolverPlan {
         method,
         why,
         rtol,
         atol: given(&scene.solver.atol).unwrap_or(rtol),
-        constraints: scene.solver.constraints.unwrap_or(match few {
-            true => ConstraintSolver::Direct,
-            false => ConstraintSolver::ConjugateGradients,
-        }),
+        constraints,
         stabilisation: scene.solver.stabilisation,
-        substeps: scene.solver.substeps.as_ref().map_or(SUBSTEPS, |substeps| *substeps.get_ref()),
+        violation: given(&scene.solver.violation).unwrap_or(if swept { VIOLATION_BY_SWEEPS } else { least }),
+        substeps: scene.solver.substeps.as_ref().map(|substeps| *substeps.get_ref()),
+        adaptive: method.is_adaptive() && adapts(scene),
     }
 }
 
 fn method(scene: &Scene, census: &Census, rtol: f64) -> (Method, String) {
-    if scene.dt_s.is_none() {
+    let n = census.constraints;
+    if adapts(scene) {
         return match rtol < HIGH_ORDER_BELOW {
-            true => (Method::Dop853, "no `dt_s`, and a tolerance at which a high order pays".to_owned()),
-            false => (Method::Tsit5, "no `dt_s`, and a tolerance at which a low order pays".to_owned()),
+            true => (Method::Dop853, "steps by error, and a tolerance at which a high order pays".to_owned()),
+            false => (Method::Tsit5, "steps by error, and a tolerance at which a low order pays".to_owned()),
         };
     }
-    if census.constraints >= XPBD_FROM {
-        return (Method::Xpbd, format!("{} constraints: fast rather than accurate", census.constraints));
+    if n >= SWEEPS_FROM {
+        return (Method::Xpbd, format!("{n} constraints: fast rather than accurate"));
     }
-    if census.drags > 0 {
-        return (Method::Rk4, "`dt_s` is given, and a force depends on the velocity".to_owned());
+    if n > HIGH_ORDER_UP_TO {
+        return (Method::Verlet, format!("steps of `dt_s` and {n} constraints: RATTLE bears it when they snap taut"));
     }
-    (Method::Verlet, "`dt_s` is given, and the forces keep energy: so does it".to_owned())
+    if n > 0 || census.drags > 0 {
+        return (Method::Tsit5, "steps of `dt_s`, and constraints or drag: a high order".to_owned());
+    }
+    (Method::Yoshida4, "steps of `dt_s`, and forces that keep the energy: so does it".to_owned())
 }

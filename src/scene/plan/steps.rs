@@ -5,11 +5,18 @@ use crate::scene::description::Scene;
 /// Frames a second where the steps are chosen by the method and the scene does not say: a screen shows no more.
 pub const DEFAULT_RECORD_HZ: f64 = 60.0;
 
-/// Whether `dt_s` says nothing about when states are known: there are only particles, and their method chooses its steps.
+/// Whether the steps of particles are chosen by their error: there is a tolerance to choose them by, or no `dt_s` to take
+/// in their place. A method with an error estimate and a `dt_s` but no `rtol` makes fixed steps, as for a recording.
+#[must_use]
+pub fn adapts(scene: &Scene) -> bool {
+    let can = scene.solver.method.as_ref().is_none_or(|method| method.get_ref().is_adaptive());
+    can && (scene.solver.rtol.is_some() || scene.dt_s.is_none())
+}
+
+/// Whether `dt_s` says nothing about when states are known: there are only particles, and their steps are chosen.
 #[must_use]
 pub fn chooses_steps(scene: &Scene) -> bool {
-    let by_method = scene.solver.method.as_ref().map(|method| method.get_ref().is_adaptive());
-    scene.body.is_empty() && by_method.unwrap_or(scene.dt_s.is_none())
+    scene.body.is_empty() && adapts(scene)
 }
 
 /// Frames a second; none if every step is one.
