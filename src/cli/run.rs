@@ -266,23 +266,25 @@ fn write_files(out: &Path, cast: &Cast, record: &Record, summary: &Summary) -> R
 
 fn table(summary: &Summary, out: &Path) -> String {
     let drift = |value: Option<f64>| value.map_or_else(|| "-".into(), |value| format!("{value:.1e}"));
+    let metres = |value: f64| format!("{value:.1e} m");
+    let with_bodies = summary.bodies > 0 || summary.particles == 0;
     let rows = [
-        (
+        Some((
             "simulated",
             format!("{} s in {:.3} s, {:.0} times real time", summary.sim_s, summary.wall_s, summary.real_time_factor),
-        ),
-        ("bodies", summary.bodies.to_string()),
-        ("particles", summary.particles.to_string()),
-        ("steps", steps(summary)),
-        ("events", summary.events.to_string()),
-        ("energy drift", drift(summary.energy_drift_rel)),
-        ("momentum drift", drift(summary.momentum_drift_rel)),
-        ("ang. mom. drift", drift(summary.angular_momentum_drift_rel)),
-        ("max penetration", format!("{:.1e} m", summary.max_penetration_m)),
-        ("max violation", summary.max_violation_m.map_or_else(|| "-".into(), |value| format!("{value:.1e} m"))),
-        ("state hash", summary.state_hash.clone()),
+        )),
+        with_bodies.then(|| ("bodies", summary.bodies.to_string())),
+        (summary.particles > 0).then(|| ("particles", summary.particles.to_string())),
+        Some(("steps", steps(summary))),
+        with_bodies.then(|| ("events", summary.events.to_string())),
+        Some(("energy drift", drift(summary.energy_drift_rel))),
+        Some(("momentum drift", drift(summary.momentum_drift_rel))),
+        Some(("ang. mom. drift", drift(summary.angular_momentum_drift_rel))),
+        with_bodies.then(|| ("max penetration", metres(summary.max_penetration_m))),
+        summary.max_violation_m.map(|violation| ("max violation", metres(violation))),
+        Some(("state hash", summary.state_hash.clone())),
     ];
-    let mut text: String = rows.iter().map(|(name, value)| format!("{name:<16} {value}\n")).collect();
+    let mut text: String = rows.iter().flatten().map(|(name, value)| format!("{name:<16} {value}\n")).collect();
     text += &format!("open             {}\n", out.join("run.html").display());
     text
 }
