@@ -58,7 +58,9 @@ fn run_in<T: Real>(options: &Options, scene: &Scene, source: SceneSource) -> Res
     let mut world = World::new(setup);
     if let Some(particles) = particles {
         let solver = SolverPlan::of(scene).of_particles(plan::interval_s(scene));
-        let motion = particles.motion(&solver).map_err(|reason| Failure::input(reason.to_string()))?;
+        let motion = particles
+            .motion(&solver, scene.dt_s.as_ref().map(|dt| *dt.get_ref()))
+            .map_err(|reason| Failure::input(reason.to_string()))?;
         world = world.with_particles(motion);
     }
     let bar = progress(options.quiet, plan::steps(scene));

@@ -49,11 +49,24 @@ impl<T: Real> Motion<T> {
     /// # Errors
     /// A solver that cannot be used.
     pub fn new(setup: Setup<T>, start: Particles<T>, solver: &Solver) -> Result<Self, SolverError> {
+        Self::with_max_step(setup, start, solver, None)
+    }
+
+    /// Starts at time 0; a method that chooses its steps makes none longer than this, s.
+    ///
+    /// # Errors
+    /// A solver that cannot be used.
+    pub fn with_max_step(
+        setup: Setup<T>,
+        start: Particles<T>,
+        solver: &Solver,
+        max_step_s: Option<f64>,
+    ) -> Result<Self, SolverError> {
         if solver.linear == LinearSolver::Sweeps && solver.method != Method::Xpbd {
             return Err(SolverError::NeedsMultipliers(solver.method));
         }
         let system = System::new(setup, &start, solver)?;
-        let stepper = stepper(&start, solver)?;
+        let stepper = stepper(&start, solver, max_step_s)?;
         Ok(Self { system, stepper, state: start, time_s: 0.0 })
     }
 
@@ -107,7 +120,7 @@ impl<T: Real> Motion<T> {
     }
 }
 
-fn stepper<T: Real>(start: &Particles<T>, solver: &Solver) -> Result<Step<T>, SolverError> {
+fn stepper<T: Real>(start: &Particles<T>, solver: &Solver, max_step_s: Option<f64>) -> Result<Step<T>, SolverError> {
     let rates = Rates::zeros(start.len());
     let accelerations: Vec<Vector<T>> = vec![Vector::default(); start.len()];
     macro_rules! fixed {
@@ -116,9 +129,13 @@ fn stepper<T: Real>(start: &Particles<T>, solver: &Solver) -> Result<Step<T>, So
         };
     }
     macro_rules! adaptive {
-        ($method:ty, $tolerance:expr) => {
-            Box::new(Adaptive::<$method, _, T>::new(0.0, start.clone(), rates, $tolerance)?)
-        };
+        ($method:ty, $tolerance:expr) => {{
+            let free = Adaptive::<$method, _, T>::new(0.0, start.clone(), rates, $tolerance)?;
+            Box::new(match max_step_s {
+                Some(max_step_s) => free.with_max_step(max_step_s)?,
+                None => free,
+            })
+        }};
     }
     let split = |composition, dt_s| Symplectic::new(composition, 0.0, start.clone(), accelerations, dt_s);
     Ok(match solver.steps {

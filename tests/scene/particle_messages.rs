@@ -152,6 +152,8 @@ const MISTAKES: &[(&str, &str)] = &[
     ("tolerance below f32", "duration_s = 1\n#[solver]\nscalar = \"f32\"\nrtol = 1e-7\n"),
     ("negative tolerances", "duration_s = 1\n#[solver]\nrtol = -1e-6\natol = 0\n"),
     ("no tolerance", "duration_s = 1\n#[solver]\nrtol = 1\n"),
+    ("sweeps of a method that cannot", "+#[solver]\nmethod = \"rk4\"\nconstraints = \"sweeps\"\n"),
+    ("impossible violation", "+#[solver]\nviolation = 1\n"),
     ("no substeps", "+#[solver]\nmethod = \"xpbd\"\nsubsteps = 0\n"),
     (
         "too many frames",

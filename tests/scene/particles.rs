@@ -196,13 +196,21 @@ const PENDULUM: &str = "[[particle]]\nname = \"a\"\nmass_kg = 1\nposition_m = [1
 fn the_plan_chooses_a_solver_and_says_why() {
     let method =
         |head: &str, tail: &str| plan(&accepted(&format!("{head}{PENDULUM}{tail}"), &[])).particle_solver.unwrap();
-    assert_eq!(method(SOUND, "").method, Method::Verlet);
-    assert_eq!(method(SOUND, "[[force]]\nlinear_drag.k_kg_s = 1\n").method, Method::Rk4);
-    assert_eq!(method("duration_s = 1\n", "").method, Method::Dop853);
+    let fixed = method(SOUND, "");
+    assert_eq!((fixed.method, fixed.adaptive), (Method::Tsit5, false));
+    let chosen = method("duration_s = 1\n", "");
+    assert_eq!((chosen.method, chosen.adaptive), (Method::Dop853, true));
     assert_eq!(method("duration_s = 1\n", "[solver]\nrtol = 1e-3\n").method, Method::Tsit5);
     let named = method(SOUND, "[solver]\nmethod = \"cash_karp\"\n");
     assert_eq!((named.method, named.why.as_str()), (Method::CashKarp, "the scene names it"));
-    let plan = plan(&accepted(&format!("{SOUND}{PENDULUM}"), &["solver.rtol=1e-3"]));
+    let free = |tail: &str| {
+        let text = format!("{SOUND}[[particle]]\nname = \"a\"\nmass_kg = 1\n{tail}");
+        plan(&accepted(&text, &[])).particle_solver.unwrap().method
+    };
+    assert_eq!((free(""), free("[[force]]\nlinear_drag.k_kg_s = 1\n")), (Method::Yoshida4, Method::Tsit5));
+    let large = format!("{}fixed = [[0, 0]]\n", net(9, 9, 0.0, 0.0));
+    assert_eq!(plan(&accepted(&large, &[])).particle_solver.unwrap().method, Method::Verlet);
+    let plan = plan(&accepted(&format!("{SOUND}{PENDULUM}"), &["solver.rtol=1e-3", "solver.method=rk4"]));
     assert!(plan.left_out.iter().any(|left_out| left_out.what == "tolerances"), "what is not used is said");
     assert!(plan.left_out.iter().any(|left_out| left_out.what == "bodies"));
     assert_eq!((plan.particles, plan.moving_particles, plan.constraints), (1, 1, 1));
@@ -214,8 +222,8 @@ fn states_are_asked_for_at_frames_where_the_method_chooses_its_steps() {
     assert_eq!((record_hz(&scene), steps(&scene)), (Some(60.0), 120));
     let fixed = accepted(&format!("{SOUND}{PENDULUM}"), &[]);
     assert_eq!((record_hz(&fixed), steps(&fixed), interval_s(&fixed)), (None, 100, 0.01));
-    // Given with such a method, dt_s is the largest step, and not when states are asked for.
-    let limited = accepted(&format!("{SOUND}record_hz = 5\n{PENDULUM}"), &["solver.method=tsit5"]);
+    // Given with a tolerance, dt_s is the largest step, and not when states are asked for.
+    let limited = accepted(&format!("{SOUND}record_hz = 5\n{PENDULUM}"), &["solver.rtol=1e-6"]);
     assert_eq!((steps(&limited), interval_s(&limited)), (5, 0.2));
     // A body needs its step, whatever solves the particles.
     let body = "[[body]]\nname = \"c\"\nmass_kg = 1\nshape.box.size_m = [1, 1, 1]\n";

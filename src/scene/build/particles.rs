@@ -30,15 +30,16 @@ pub struct ParticleSetup<T> {
 }
 
 impl<T: Real> ParticleSetup<T> {
-    /// The particles, ready to move.
+    /// The particles, ready to move; where the solver chooses its steps, by none longer than this, s.
     ///
     /// # Errors
     /// A solver that cannot be used.
-    pub fn motion(self, solver: &Solver) -> Result<Motion<T>, SolverError> {
+    pub fn motion(self, solver: &Solver, max_step_s: Option<f64>) -> Result<Motion<T>, SolverError> {
         let inverse = |(mass, fixed): (&T, &bool)| if *fixed { T::zero() } else { T::one() / *mass };
         let inv_mass = self.mass.iter().zip(&self.fixed).map(inverse).collect();
         let masses = Masses { mass: self.mass, inv_mass };
-        Motion::new(Setup { masses, forces: self.forces, constraints: self.constraints }, self.state, solver)
+        let setup = Setup { masses, forces: self.forces, constraints: self.constraints };
+        Motion::with_max_step(setup, self.state, solver, max_step_s)
     }
 }
 

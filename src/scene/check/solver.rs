@@ -3,7 +3,8 @@
 use toml::Spanned;
 
 use super::{Checker, MAX_STEPS};
-use crate::scene::description::{Method, Scalar, Scene};
+use crate::ode::SMALLEST_RTOL_EPS;
+use crate::scene::description::{ConstraintSolver, Method, Scalar, Scene};
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::particles;
 use crate::scene::plan;
@@ -13,16 +14,11 @@ use crate::scene::read::Damage;
 /// together, so this is 2 GB. A particle's takes half of that, and counts as one half.
 const MAX_RECORDED: f64 = 5e6;
 
-/// The least relative tolerance, in epsilons of the scalar: below it the error estimate shows rounding. The longest of
-/// the methods, DOP853, adds 12 rates, each rounded on its own and again in the sum: 24 unit roundoffs, 12 epsilons, of
-/// a step. That must be well below what is tolerated.
-const RTOL_EPSILONS: f64 = 32.0;
-
 /// The least relative tolerance of a scalar.
 fn least_rtol(scalar: Scalar) -> f64 {
     match scalar {
-        Scalar::F64 => RTOL_EPSILONS * f64::EPSILON,
-        Scalar::F32 => RTOL_EPSILONS * f64::from(f32::EPSILON),
+        Scalar::F64 => SMALLEST_RTOL_EPS * f64::EPSILON,
+        Scalar::F32 => SMALLEST_RTOL_EPS * f64::from(f32::EPSILON),
     }
 }
 
@@ -52,6 +48,20 @@ impl Checker {
         }
         if let Some(atol) = &solver.atol {
             self.positive("atol", atol, "in m and m/s; where a coordinate is zero nothing else limits the error");
+        }
+        if let Some(violation) = &solver.violation
+            && let Some(value) =
+                self.positive("violation", violation, "it is relative to a length: 1e-6 is a fair start")
+            && value >= 1.0
+        {
+            let diagnostic = Diagnostic::new(format!("`violation` must be less than 1, not {value:?}"));
+            self.report(diagnostic.at(violation.span()).help("it is relative to a length: 1e-6 is a fair start"));
+        }
+        let swept = solver.constraints.as_ref().filter(|by| *by.get_ref() == ConstraintSolver::Sweeps);
+        let xpbd = solver.method.as_ref().is_some_and(|method| *method.get_ref() == Method::Xpbd);
+        if let Some(swept) = swept.filter(|_| !xpbd) {
+            let diagnostic = Diagnostic::new("`sweeps` hold constraints one by one, which only `xpbd` can do");
+            self.report(diagnostic.at(swept.span()).help("set `method = \"xpbd\"`, or choose `direct`"));
         }
         if let Some(substeps) = solver.substeps.as_ref().filter(|substeps| *substeps.get_ref() == 0) {
             let diagnostic = Diagnostic::new("`substeps` must be at least 1, not 0").at(substeps.span());

@@ -34,8 +34,8 @@ pub struct Scene {
     /// How long the run lasts, in s. Positive.
     #[schemars(with = "f64", extend("exclusiveMinimum" = 0))]
     pub duration_s: Spanned<f64>,
-    /// The time step, in s. Positive, at most `duration_s`. For a `method` that chooses its steps it is the largest, and
-    /// may be left out in a scene without bodies.
+    /// The time step, in s. Positive, at most `duration_s`. Where particles choose their steps by `rtol` it is the largest,
+    /// and may be left out in a scene without bodies.
     #[schemars(with = "Option<f64>", extend("exclusiveMinimum" = 0))]
     pub dt_s: Option<Spanned<f64>>,
     /// How many frames per second of simulated time are recorded, in 1/s. Without it every step is; 60 where the steps

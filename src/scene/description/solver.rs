@@ -24,7 +24,7 @@ pub struct Solver {
     pub atol: Option<Spanned<f64>>,
     /// How the constraint forces are solved for. Without it the plan chooses by the number of constraints.
     #[schemars(with = "Option<ConstraintSolver>")]
-    pub constraints: Option<ConstraintSolver>,
+    pub constraints: Option<Spanned<ConstraintSolver>>,
     /// What keeps particles on their constraints against the errors of the steps.
     #[serde(default)]
     pub stabilisation: Stabilisation,

@@ -107,7 +107,7 @@ pub(super) fn choose(scene: &Scene, census: &Census) -> SolverPlan {
         Some(method) => (*method.get_ref(), "the scene names it".to_owned()),
         None => method(scene, census, rtol),
     };
-    let constraints = scene.solver.constraints.unwrap_or(match () {
+    let constraints = scene.solver.constraints.as_ref().map(|by| *by.get_ref()).unwrap_or(match () {
         () if method == Method::Xpbd => ConstraintSolver::Sweeps,
         () if census.constraints <= DIRECT_UP_TO => ConstraintSolver::Direct,
         () => ConstraintSolver::ConjugateGradients,
