@@ -104,13 +104,16 @@ impl<M: Embedded, T: Real, S: Controlled<T>> Adaptive<M, S, T> {
             let segment = &self.segment;
             let ratio = M::error_ratio(segment.rates(), &segment.before, &segment.state, h_s, self.tolerance);
             if ratio <= 1.0 {
-                let next = (h_s * self.controller.accepted(ratio)).min(self.max_step_s);
-                // A step cut short by a stop says little of the next.
-                self.next_s = Some(if last { next.max(wanted) } else { next });
+                let next = if last {
+                    self.controller.cut_short(ratio, h_s, wanted)
+                } else {
+                    self.controller.accepted(ratio, h_s)
+                };
+                self.next_s = Some(next.min(self.max_step_s));
                 return Ok(to_s);
             }
             self.segment.work.rejected += 1;
-            wanted = h_s * self.controller.rejected(ratio);
+            wanted = self.controller.rejected(ratio, h_s);
         }
     }
 }
