@@ -3,12 +3,15 @@
 use super::control::{Controller, first_guess, first_step};
 use super::segment::Segment;
 use super::stepper::MAX_STEPS;
-use super::{Controlled, Embedded, OdeError, State, StepError, Stepper, System, Tolerance, ToleranceError, Work};
+use super::{Controlled, Embedded, OdeError, Run, State, StepError, Stepper, System, Tolerance, ToleranceError, Work};
 use crate::algebra::Real;
 
 /// A remainder before a stop is taken whole if it is at most this much longer than the step: a step of a hundredth would
 /// cost as much as a whole one.
 const LAST_STEP: f64 = 1.01;
+
+/// The time resolves a step that comes out within this part of it. Coarser, a step that failed could come out as long again.
+const RESOLVED: f64 = 0.1;
 
 /// Integrates with a method that estimates its error, `Adaptive::<Dop853, _, _>`.
 #[derive(Clone, Debug)]
@@ -97,7 +100,7 @@ impl<M: Embedded, T: Real, S: Controlled<T>> Adaptive<M, S, T> {
             let to_s = if last { self.stop_s } else { from_s + wanted };
             // What the time really moves by.
             let h_s = to_s - from_s;
-            if !(h_s > 0.0 && 0.5 * wanted < h_s || last && h_s > 0.0) {
+            if !(h_s > 0.0) || !last && (h_s - wanted).abs() > RESOLVED * wanted {
                 return Err(OdeError::StepTooSmall { time_s: from_s, step_s: wanted });
             }
             self.segment.attempt(h_s, M::ERROR_AT_END, system).map_err(OdeError::System)?;
@@ -118,7 +121,7 @@ impl<M: Embedded, T: Real, S: Controlled<T>> Adaptive<M, S, T> {
     }
 }
 
-impl<M: Embedded, T: Real, S: Controlled<T>, Y: System<S, T> + ?Sized> Stepper<S, Y> for Adaptive<M, S, T> {
+impl<M: Embedded, T: Real, S: Controlled<T>, Y: System<S, T> + ?Sized> Stepper<Y> for Adaptive<M, S, T> {
     type Error = Y::Error;
 
     #[inline]
@@ -140,6 +143,10 @@ impl<M: Embedded, T: Real, S: Controlled<T>, Y: System<S, T> + ?Sized> Stepper<S
     fn interpolate(&mut self, system: &mut Y, t_s: f64, out: &mut S) -> Result<(), OdeError<Y::Error>> {
         self.segment.interpolate(t_s, out, system)
     }
+}
+
+impl<M: Embedded, T: Real, S: State<T>> Run for Adaptive<M, S, T> {
+    type State = S;
 
     fn from_s(&self) -> f64 {
         self.segment.from_s

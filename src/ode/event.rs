@@ -87,7 +87,7 @@ impl<'a, S> Watch<'a, S> {
     }
 
     /// Looks along the last step, up to a time at most. The first event that ends the run, with the state there in `out`.
-    pub(super) fn scan<Y: ?Sized, P: Stepper<S, Y> + ?Sized>(
+    pub(super) fn scan<Y: ?Sized, P: Stepper<Y, State = S> + ?Sized>(
         &mut self,
         stepper: &mut P,
         system: &mut Y,
@@ -123,7 +123,7 @@ impl<'a, S> Watch<'a, S> {
     }
 
     /// From the last sample to the next.
-    fn advance<Y: ?Sized, P: Stepper<S, Y> + ?Sized>(
+    fn advance<Y: ?Sized, P: Stepper<Y, State = S> + ?Sized>(
         &mut self,
         stepper: &mut P,
         system: &mut Y,
@@ -152,7 +152,7 @@ impl<'a, S> Watch<'a, S> {
     }
 
     /// The first of the events between the last sample and this one, whose values stand in `next`.
-    fn earliest<Y: ?Sized, P: Stepper<S, Y> + ?Sized>(
+    fn earliest<Y: ?Sized, P: Stepper<Y, State = S> + ?Sized>(
         &mut self,
         stepper: &mut P,
         system: &mut Y,

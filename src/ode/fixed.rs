@@ -2,7 +2,7 @@
 
 use super::segment::Segment;
 use super::stepper::MAX_STEPS;
-use super::{Controlled, OdeError, State, StepError, Stepper, System, Tableau, Tolerance, Work};
+use super::{Controlled, OdeError, Run, State, StepError, Stepper, System, Tableau, Tolerance, Work};
 use crate::algebra::Real;
 
 /// Times at equal distances, each computed from the start: a sum of steps would gather rounding.
@@ -101,7 +101,7 @@ impl<M: Tableau, T: Real, S: Controlled<T>> Fixed<M, S, T> {
     }
 }
 
-impl<M: Tableau, T: Real, S: Controlled<T>, Y: System<S, T> + ?Sized> Stepper<S, Y> for Fixed<M, S, T> {
+impl<M: Tableau, T: Real, S: Controlled<T>, Y: System<S, T> + ?Sized> Stepper<Y> for Fixed<M, S, T> {
     type Error = Y::Error;
 
     #[inline]
@@ -121,6 +121,10 @@ impl<M: Tableau, T: Real, S: Controlled<T>, Y: System<S, T> + ?Sized> Stepper<S,
     fn interpolate(&mut self, system: &mut Y, t_s: f64, out: &mut S) -> Result<(), OdeError<Y::Error>> {
         self.segment.interpolate(t_s, out, system)
     }
+}
+
+impl<M: Tableau, T: Real, S: State<T>> Run for Fixed<M, S, T> {
+    type State = S;
 
     fn from_s(&self) -> f64 {
         self.segment.from_s

@@ -23,7 +23,7 @@ pub use fixed::Fixed;
 pub use leap::{Leap, Leaps};
 pub use runge_kutta::RungeKutta;
 pub use state::{Controlled, SMALLEST_RTOL_EPS, State, Tolerance, ToleranceError};
-pub use stepper::{MAX_STEPS, Stepper, Work};
+pub use stepper::{MAX_STEPS, Run, Stepper, Work};
 pub use symplectic::{Composition, Symplectic};
 pub use system::{Mechanics, System};
 pub use tableau::{CashKarp, Dop853, Embedded, Euler, Rk4, Rk4Doubling, Tableau, Tsit5};

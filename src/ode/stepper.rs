@@ -18,12 +18,34 @@ pub struct Work {
 /// cheapest steps, more than any run that is going well.
 pub const MAX_STEPS: u64 = 1_000_000_000;
 
-/// An integrator of systems `Y` with states `S`.
-pub trait Stepper<S, Y: ?Sized> {
+/// A run of steps, whatever it integrates.
+pub trait Run {
+    /// The state.
+    type State;
+
+    /// The start of the last step, s.
+    fn from_s(&self) -> f64;
+    /// The end of the last step, s.
+    fn time_s(&self) -> f64;
+    /// The state at the end of the last step.
+    fn state(&self) -> &Self::State;
+    /// What it has cost.
+    fn work(&self) -> Work;
+    /// Steps that one call of [`Stepper::advance_to`] takes at most.
+    fn max_steps(&self) -> u64;
+    /// Continues from another time and state, as after an impact. Counters go on.
+    fn restart(&mut self, t_s: f64, state: &Self::State);
+    /// No step goes past this time, because the right-hand side jumps there. To go on, let it jump and [restart](Self::restart),
+    /// for the rate at the end of a step is kept for the next. Infinity: no such time.
+    fn stop_at(&mut self, t_s: f64);
+}
+
+/// An integrator of systems `Y`.
+pub trait Stepper<Y: ?Sized>: Run {
     /// Why the system cannot go on.
     type Error;
 
-    /// Makes one step, not past [`stop_at`](Self::stop_at).
+    /// Makes one step, not past [`stop_at`](Run::stop_at).
     ///
     /// # Errors
     /// A step that cannot be made. The state is then that before the step.
@@ -33,29 +55,14 @@ pub trait Stepper<S, Y: ?Sized> {
     ///
     /// # Errors
     /// A time outside of the last step; those of the system.
-    fn interpolate(&mut self, system: &mut Y, t_s: f64, out: &mut S) -> Result<(), OdeError<Self::Error>>;
-
-    /// The start of the last step, s.
-    fn from_s(&self) -> f64;
-    /// The end of the last step, s.
-    fn time_s(&self) -> f64;
-    /// The state at the end of the last step.
-    fn state(&self) -> &S;
-    /// What it has cost.
-    fn work(&self) -> Work;
-    /// Steps that one call of `advance_to` takes at most.
-    fn max_steps(&self) -> u64;
-    /// Continues from another time and state, as after an impact. Counters go on.
-    fn restart(&mut self, t_s: f64, state: &S);
-    /// No step goes past this time, at which the right-hand side may jump. Infinity: no such time.
-    fn stop_at(&mut self, t_s: f64);
+    fn interpolate(&mut self, system: &mut Y, t_s: f64, out: &mut Self::State) -> Result<(), OdeError<Self::Error>>;
 
     /// Steps until the time is reached, and writes the state there. The last step may end later; it is not wasted, but gone
     /// on from.
     ///
     /// # Errors
     /// A step that cannot be made, too many of them, a time before the last step.
-    fn advance_to(&mut self, system: &mut Y, t_s: f64, out: &mut S) -> Result<(), OdeError<Self::Error>> {
+    fn advance_to(&mut self, system: &mut Y, t_s: f64, out: &mut Self::State) -> Result<(), OdeError<Self::Error>> {
         let (start_s, mut steps) = (self.time_s(), 0);
         while self.time_s() < t_s {
             if steps == self.max_steps() {
@@ -76,9 +83,9 @@ pub trait Stepper<S, Y: ?Sized> {
         &mut self,
         system: &mut Y,
         t_s: f64,
-        watch: &mut Watch<'_, S>,
-        out: &mut S,
-        mut seen: impl FnMut(Hit, &S),
+        watch: &mut Watch<'_, Self::State>,
+        out: &mut Self::State,
+        mut seen: impl FnMut(Hit, &Self::State),
     ) -> Result<Option<Hit>, OdeError<Self::Error>>
     where
         Self: Sized,

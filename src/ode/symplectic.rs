@@ -15,7 +15,7 @@
 
 use super::fixed::Ticks;
 use super::stepper::MAX_STEPS;
-use super::{Mechanics, OdeError, State, StepError, Stepper, Work};
+use super::{Mechanics, OdeError, Run, State, StepError, Stepper, Work};
 use crate::algebra::Real;
 use core::marker::PhantomData;
 
@@ -134,7 +134,7 @@ impl<S: Clone, T, A: Clone> Symplectic<S, T, A> {
     }
 }
 
-impl<S: State<T>, T: Real, Y: Mechanics<S, T> + ?Sized> Stepper<S, Y> for Symplectic<S, T, Y::Acceleration> {
+impl<S: State<T>, T: Real, Y: Mechanics<S, T> + ?Sized> Stepper<Y> for Symplectic<S, T, Y::Acceleration> {
     type Error = Y::Error;
 
     fn step(&mut self, mechanics: &mut Y) -> Result<(), OdeError<Y::Error>> {
@@ -176,6 +176,10 @@ impl<S: State<T>, T: Real, Y: Mechanics<S, T> + ?Sized> Stepper<S, Y> for Symple
         let done = self.composition.apply(mechanics, span, out, &self.acceleration_before, &mut self.scratch);
         done.map_err(OdeError::System)
     }
+}
+
+impl<S: State<T>, T: Real, A> Run for Symplectic<S, T, A> {
+    type State = S;
 
     fn from_s(&self) -> f64 {
         self.from_s

@@ -26,7 +26,7 @@ pub trait System<S: State<T>, T> {
     }
 }
 
-impl<S: State<T>, T, F: FnMut(f64, &S, &mut S::Rate)> System<S, T> for F {
+impl<S: State<T>, T, F: FnMut(f64, &S, &mut S::Rate) + ?Sized> System<S, T> for F {
     type Error = Infallible;
 
     #[inline(always)]

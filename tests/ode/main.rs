@@ -2,5 +2,10 @@
 //! counters, symplectic motion.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+mod conditions;
+mod control;
+mod dense;
+mod events;
+mod motion;
 mod orders;
 mod problems;

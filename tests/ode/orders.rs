@@ -1,10 +1,10 @@
 //! The observed order of every method, on problems with known solutions: two steps h and h/2, where the errors are far
 //! above rounding. An order that is too high would be as wrong as one that is too low.
 
-use crate::problems::{Kepler, distance, tangent, tangent_solution};
+use crate::problems::{Kepler, bell, bell_solution, distance};
 use ga_physics::ode::{
-    CashKarp, Composition, Controlled, Dop853, Euler, Fixed, Rk4, Rk4Doubling, Stepper, Symplectic, System, Tableau,
-    Tsit5,
+    CashKarp, Composition, Controlled, Dop853, Euler, Fixed, Rk4, Rk4Doubling, Run, Stepper, Symplectic, System,
+    Tableau, Tsit5,
 };
 
 const TOLERANCE: f64 = 0.1;
@@ -19,7 +19,7 @@ where
     for _ in 0..n {
         stepper.step(&mut system).unwrap();
     }
-    *Stepper::<_, Y>::state(&stepper)
+    *stepper.state()
 }
 
 fn check(name: &str, order: u32, errors: [f64; 2]) {
@@ -37,19 +37,19 @@ fn method<M: Tableau>(name: &str, harmonic: u32, kepler: u32, nonlinear: u32) {
     let errors =
         [1, 2].map(|k| distance(&run::<M, 4, _>(Kepler::default(), Kepler::start(0.2), 2.0, k * kepler), &exact));
     check(&format!("{name}, Kepler"), M::ORDER, errors);
-    let errors = [1, 2]
-        .map(|k| distance(&run::<M, 1, _>(tangent, tangent_solution(0.0), 1.0, k * nonlinear), &tangent_solution(1.0)));
-    check(&format!("{name}, tangent"), M::ORDER, errors);
+    let errors =
+        [1, 2].map(|k| distance(&run::<M, 1, _>(bell, bell_solution(0.0), 1.0, k * nonlinear), &bell_solution(1.0)));
+    check(&format!("{name}, bell"), M::ORDER, errors);
 }
 
 #[test]
 fn runge_kutta_methods_have_their_order() {
     method::<Euler>("Euler", 2000, 4000, 2000);
     method::<Rk4>("RK4", 100, 200, 200);
-    method::<Rk4Doubling>("RK4 doubling", 40, 100, 100);
-    method::<CashKarp>("Cash-Karp", 40, 100, 100);
-    method::<Tsit5>("Tsit5", 40, 100, 100);
-    method::<Dop853>("DOP853", 10, 30, 30);
+    method::<Rk4Doubling>("RK4 doubling", 40, 100, 36);
+    method::<CashKarp>("Cash-Karp", 40, 100, 36);
+    method::<Tsit5>("Tsit5", 40, 100, 36);
+    method::<Dop853>("DOP853", 8, 18, 8);
 }
 
 fn composition(composition: Composition, n: u32) {
@@ -59,7 +59,7 @@ fn composition(composition: Composition, n: u32) {
         for _ in 0..n {
             stepper.step(&mut Kepler::default()).unwrap();
         }
-        *Stepper::<_, Kepler>::state(&stepper)
+        *stepper.state()
     };
     let exact = Kepler::solution(0.2, 2.0);
     check(&format!("{composition:?}"), composition.order(), [1, 2].map(|k| distance(&end(k * n), &exact)));

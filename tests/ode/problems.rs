@@ -5,8 +5,8 @@ use std::convert::Infallible;
 
 /// Relative motion of two bodies in a plane, `r'' = -r / |r|³`: `[x, y, vx, vy]`.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Kepler {
-    pub evals: u64,
+pub(crate) struct Kepler {
+    pub(crate) evals: u64,
 }
 
 fn gravity([x, y]: [f64; 2]) -> [f64; 2] {
@@ -17,12 +17,12 @@ fn gravity([x, y]: [f64; 2]) -> [f64; 2] {
 
 impl Kepler {
     /// At the nearest point of an orbit with semi-major axis 1 and period 2 pi.
-    pub fn start(eccentricity: f64) -> [f64; 4] {
+    pub(crate) fn start(eccentricity: f64) -> [f64; 4] {
         [1.0 - eccentricity, 0.0, 0.0, ((1.0 + eccentricity) / (1.0 - eccentricity)).sqrt()]
     }
 
     /// The state at a time after that, from Kepler's equation `E - e sin E = t`.
-    pub fn solution(eccentricity: f64, t: f64) -> [f64; 4] {
+    pub(crate) fn solution(eccentricity: f64, t: f64) -> [f64; 4] {
         let mean = t % std::f64::consts::TAU;
         let mut anomaly = mean + eccentricity * mean.sin();
         for _ in 0..50 {
@@ -34,7 +34,7 @@ impl Kepler {
         [cos - eccentricity, minor * sin, -sin * rate, minor * cos * rate]
     }
 
-    pub fn energy([x, y, vx, vy]: [f64; 4]) -> f64 {
+    pub(crate) fn energy([x, y, vx, vy]: [f64; 4]) -> f64 {
         0.5 * (vx * vx + vy * vy) - 1.0 / (x * x + y * y).sqrt()
     }
 }
@@ -73,15 +73,15 @@ impl Mechanics<[f64; 4], f64> for Kepler {
 }
 
 /// The largest difference of two states.
-pub fn distance<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
+pub(crate) fn distance<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// `y' = 2 t (1 + y²)`, nonlinear and nonautonomous: `y = tan(t² + c)` with y(0) = tan c, c = 0.1.
-pub fn tangent(t: f64, [y]: &[f64; 1], rate: &mut [f64; 1]) {
-    *rate = [2.0 * t * (1.0 + y * y)];
+/// `y' = -2 t y²`, nonlinear and nonautonomous: `y = 1 / (1 + t²)`.
+pub(crate) fn bell(t: f64, [y]: &[f64; 1], rate: &mut [f64; 1]) {
+    *rate = [-2.0 * t * y * y];
 }
 
-pub fn tangent_solution(t: f64) -> [f64; 1] {
-    [(t * t + 0.1).tan()]
+pub(crate) fn bell_solution(t: f64) -> [f64; 1] {
+    [1.0 / (1.0 + t * t)]
 }

@@ -5,7 +5,7 @@ use super::{number, tableau};
 tableau! {
     /// The pair of orders 5(4) of Cash and Karp: six evaluations a step.
     ///
-    /// Two rows of the report's Table 4 are misprinted: row 4 lost its first entry (the method would be of order 2), and
+    /// Two rows of the report's Table 4 are misprinted: row 4 lost its first entry (its times and rows then disagree, and the method is of order 1), and
     /// the last weights slipped by a column. These are the ones of the paper.
     CashKarp: order 5, rates 7;
     2 at 1.0 / 5.0 => [1: 1.0 / 5.0];
