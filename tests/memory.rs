@@ -6,8 +6,10 @@
 use ga_physics::algebra::dynamic::{Dynamic, ToDynamic};
 use ga_physics::algebra::{cga, g3};
 use ga_physics::geometry::formulas;
+use ga_physics::ode::{Adaptive, Crossing, Dop853, Event, Fixed, Rk4, Stepper, Tolerance, Watch};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
+use std::cell::RefCell;
 use std::hint::black_box;
 use std::sync::{Mutex, PoisonError};
 
@@ -84,6 +86,24 @@ fn generated_operations_take_nothing_from_the_heap() {
     assert_eq!(heap_use(|| cga::Even::from(m) * cga::Even::from(m)), (0, 0));
     // The counter counts.
     assert_eq!(heap_use(|| vec![1_u8; 77]), (1, 77));
+}
+
+/// A step of any integrator, with dense output, takes nothing from the heap.
+#[test]
+fn steps_take_nothing_from_the_heap() {
+    let mut oscillator = |_: f64, y: &Vec<f64>, rate: &mut Vec<f64>| (rate[0], rate[1]) = (y[1], -y[0]);
+    let (start, tolerance) = (vec![1.0, 0.0], Tolerance { rtol: 1e-9, atol: 1e-9 });
+    let mut adaptive = Adaptive::<Dop853, _, _>::new(0.0, start.clone(), start.clone(), tolerance).unwrap();
+    let mut fixed = Fixed::<Rk4, _, f64>::new(0.0, start.clone(), start.clone(), 0.1).unwrap();
+    let mut watch = Watch::new(0.0, [Event::new(Crossing::Either, |_, y: &Vec<f64>| y[0])]);
+    let (mut out, mut frame) = (start, 0.0);
+    let step = || {
+        frame += 0.75;
+        adaptive.advance_watching(&mut oscillator, frame, &mut watch, &mut out, &mut |_, _| ()).unwrap();
+        fixed.advance_to(&mut oscillator, frame, &mut out).unwrap();
+    };
+    let step = RefCell::new(step);
+    assert_eq!(heap_use(|| step.borrow_mut()()), (0, 0));
 }
 
 /// Types are their stored numbers and nothing else.

@@ -93,7 +93,7 @@ impl<'a, S> Watch<'a, S> {
         system: &mut Y,
         to_s: f64,
         out: &mut S,
-        seen: &mut impl FnMut(Hit, &S),
+        seen: &mut dyn FnMut(Hit, &S),
     ) -> Result<Option<Hit>, OdeError<P::Error>> {
         let (from_s, end_s) = (stepper.from_s(), stepper.time_s());
         if !self.primed || self.at_s < from_s {
@@ -129,7 +129,7 @@ impl<'a, S> Watch<'a, S> {
         system: &mut Y,
         sample_s: f64,
         out: &mut S,
-        seen: &mut impl FnMut(Hit, &S),
+        seen: &mut dyn FnMut(Hit, &S),
     ) -> Result<Option<Hit>, OdeError<P::Error>> {
         loop {
             stepper.interpolate(system, sample_s, out)?;

@@ -40,7 +40,7 @@ pub trait Run {
     fn stop_at(&mut self, t_s: f64);
 }
 
-/// An integrator of systems `Y`.
+/// An integrator of systems `Y`. Where the method is chosen at run time: `Box<dyn Stepper<Y, State = S, Error = E>>`.
 pub trait Stepper<Y: ?Sized>: Run {
     /// Why the system cannot go on.
     type Error;
@@ -85,14 +85,11 @@ pub trait Stepper<Y: ?Sized>: Run {
         t_s: f64,
         watch: &mut Watch<'_, Self::State>,
         out: &mut Self::State,
-        mut seen: impl FnMut(Hit, &Self::State),
-    ) -> Result<Option<Hit>, OdeError<Self::Error>>
-    where
-        Self: Sized,
-    {
+        seen: &mut dyn FnMut(Hit, &Self::State),
+    ) -> Result<Option<Hit>, OdeError<Self::Error>> {
         let (start_s, mut steps) = (self.time_s(), 0);
         loop {
-            if let Some(hit) = watch.scan(self, system, t_s, out, &mut seen)? {
+            if let Some(hit) = watch.scan(self, system, t_s, out, seen)? {
                 return Ok(Some(hit));
             }
             if self.time_s() >= t_s {

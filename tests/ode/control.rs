@@ -1,6 +1,7 @@
 //! Step control: errors follow the tolerance, work is counted, what cannot be integrated is a typed error with a remedy.
 
 use crate::problems::{Kepler, distance};
+use ga_physics::nalgebra::SVector;
 use ga_physics::ode::{
     Adaptive, CashKarp, Controlled, Dop853, Embedded, Fixed, OdeError, Rk4, Rk4Doubling, Run, State, Stepper, System,
     Tolerance, ToleranceError, Tsit5, Work,
@@ -242,16 +243,15 @@ fn kinds_of_state_agree() {
     assert_eq!(array, vector);
     let mut stepper = Adaptive::<Dop853, _, _>::new(
         0.0,
-        ga_physics::nalgebra::SVector::<f64, N>::from(start),
-        ga_physics::nalgebra::SVector::<f64, N>::from(start),
+        SVector::<f64, N>::from(start),
+        SVector::<f64, N>::from(start),
         Tolerance { rtol: 1e-10, atol: 1e-10 },
     )
     .unwrap();
     let mut out = *stepper.state();
-    let mut rate =
-        |_: f64, y: &ga_physics::nalgebra::SVector<f64, N>, rate: &mut ga_physics::nalgebra::SVector<f64, N>| {
-            coupled(y.as_slice(), rate.as_mut_slice());
-        };
+    let mut rate = |_: f64, y: &SVector<f64, N>, rate: &mut SVector<f64, N>| {
+        coupled(y.as_slice(), rate.as_mut_slice());
+    };
     stepper.advance_to(&mut rate, 3.0, &mut out).unwrap();
     assert_eq!(array, out.as_slice());
 }

@@ -2,10 +2,12 @@
 
 use crate::problems::{Kepler, distance};
 use ga_physics::ode::{
-    Adaptive, CashKarp, Composition, Dop853, Embedded, Euler, Fixed, OdeError, Rk4, Rk4Doubling, Run, Stepper,
-    Symplectic, Tableau, Tolerance, Tsit5,
+    Adaptive, CashKarp, Composition, Crossing, Dop853, Embedded, Euler, Event, Fixed, OdeError, Rk4, Rk4Doubling, Run,
+    Stepper, Symplectic, Tableau, Tolerance, Tsit5, Watch,
 };
 use std::cell::Cell;
+use std::convert::Infallible;
+use std::f64::consts::PI;
 
 const E: f64 = 0.3;
 
@@ -119,4 +121,37 @@ fn time_does_not_run_backwards() {
     let mut still = |_: f64, _: &[f64; 1], rate: &mut [f64; 1]| *rate = [1.0];
     stepper.advance_to(&mut still, 1000.0, &mut [0.0]).unwrap();
     assert_eq!(stepper.time_s(), 1000.0);
+}
+
+/// The method is chosen at run time; all come to the same place, and see the same events.
+#[test]
+fn steppers_are_interchangeable() {
+    type Any = Box<dyn Stepper<Kepler, State = [f64; 4], Error = Infallible>>;
+    fn fixed<M: Tableau + 'static>() -> Any {
+        Box::new(Fixed::<M, _, f64>::new(0.0, Kepler::start(E), [0.0; 4], 0.01).unwrap())
+    }
+    fn adaptive<M: Embedded + 'static>() -> Any {
+        let tolerance = Tolerance { rtol: 1e-8, atol: 1e-8 };
+        Box::new(Adaptive::<M, _, _>::new(0.0, Kepler::start(E), [0.0; 4], tolerance).unwrap())
+    }
+    fn symplectic(composition: Composition) -> Any {
+        Box::new(Symplectic::<_, f64, _>::new(composition, 0.0, Kepler::start(E), [0.0; 2], 0.01).unwrap())
+    }
+    let all = [
+        fixed::<Rk4>(),
+        adaptive::<Rk4Doubling>(),
+        adaptive::<CashKarp>(),
+        adaptive::<Tsit5>(),
+        adaptive::<Dop853>(),
+        symplectic(Composition::Yoshida4),
+        symplectic(Composition::Yoshida6),
+    ];
+    for (index, mut stepper) in all.into_iter().enumerate() {
+        let (mut kepler, mut out) = (Kepler::default(), [0.0; 4]);
+        let mut watch = Watch::new(0.0, [Event::new(Crossing::Either, |_, y: &[f64; 4]| y[1]).terminal()]);
+        let hit = stepper.advance_watching(&mut kepler, 5.0, &mut watch, &mut out, &mut |_, _| ()).unwrap().unwrap();
+        assert!((hit.time_s - PI).abs() < 1e-6, "{index}: {hit:?}");
+        stepper.advance_to(&mut kepler, 5.0, &mut out).unwrap();
+        assert!(distance(&out, &Kepler::solution(E, 5.0)) < 1e-6, "{index}: {out:?}");
+    }
 }
