@@ -148,7 +148,7 @@ impl<M: Embedded, T: Real, S: Controlled<T>, Y: System<S, T> + ?Sized> Stepper<Y
 impl<M: Embedded, T: Real, S: State<T>> Run for Adaptive<M, S, T> {
     type State = S;
 
-    fn from_s(&self) -> f64 {
+    fn start_s(&self) -> f64 {
         self.segment.from_s
     }
 

@@ -87,6 +87,7 @@ fn log2(x: f64) -> f64 {
 
 /// `2^x` to 1e-6 for |x| of at most a thousand: that of the nearest integer times `e^(f ln 2)` of the rest.
 #[inline(always)]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
 fn exp2(x: f64) -> f64 {
     let x = x.clamp(-1000.0, 1000.0);
     let whole = (x + 0.5 * x.signum()) as i32;

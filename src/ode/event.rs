@@ -33,9 +33,12 @@ pub struct Hit {
     pub rising: bool,
 }
 
+/// The function whose zeros are events.
+type Value<'a, S> = dyn FnMut(f64, &S) -> f64 + 'a;
+
 /// What to watch for.
 pub struct Event<'a, S> {
-    value: Box<dyn FnMut(f64, &S) -> f64 + 'a>,
+    value: Box<Value<'a, S>>,
     crossing: Crossing,
     terminal: bool,
 }
@@ -95,7 +98,7 @@ impl<'a, S> Watch<'a, S> {
         out: &mut S,
         seen: &mut dyn FnMut(Hit, &S),
     ) -> Result<Option<Hit>, OdeError<P::Error>> {
-        let (from_s, end_s) = (stepper.from_s(), stepper.time_s());
+        let (from_s, end_s) = (stepper.start_s(), stepper.time_s());
         if !self.primed || self.at_s < from_s {
             self.at_s = self.at_s.max(from_s);
             stepper.interpolate(system, self.at_s, out)?;

@@ -126,7 +126,7 @@ impl<M: Tableau, T: Real, S: Controlled<T>, Y: System<S, T> + ?Sized> Stepper<Y>
 impl<M: Tableau, T: Real, S: State<T>> Run for Fixed<M, S, T> {
     type State = S;
 
-    fn from_s(&self) -> f64 {
+    fn start_s(&self) -> f64 {
         self.segment.from_s
     }
 

@@ -24,7 +24,7 @@ pub trait Run {
     type State;
 
     /// The start of the last step, s.
-    fn from_s(&self) -> f64;
+    fn start_s(&self) -> f64;
     /// The end of the last step, s.
     fn time_s(&self) -> f64;
     /// The state at the end of the last step.

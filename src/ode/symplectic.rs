@@ -181,7 +181,7 @@ impl<S: State<T>, T: Real, Y: Mechanics<S, T> + ?Sized> Stepper<Y> for Symplecti
 impl<S: State<T>, T: Real, A> Run for Symplectic<S, T, A> {
     type State = S;
 
-    fn from_s(&self) -> f64 {
+    fn start_s(&self) -> f64 {
         self.from_s
     }
 

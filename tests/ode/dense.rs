@@ -18,7 +18,7 @@ where
 {
     let (mut out, mut kepler) = ([0.0; 4], Kepler::default());
     stepper.step(&mut kepler).unwrap();
-    assert_eq!((stepper.from_s(), stepper.time_s()), (0.0, h));
+    assert_eq!((stepper.start_s(), stepper.time_s()), (0.0, h));
     stepper.interpolate(&mut kepler, 0.4 * h, &mut out).unwrap();
     distance(&out, &Kepler::solution(E, 0.4 * h))
 }
