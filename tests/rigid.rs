@@ -4,7 +4,7 @@
 
 use ga_physics::algebra::cga::Point;
 use ga_physics::algebra::g3::{Bivector, Rotor, Vector};
-use ga_physics::ode::Rk4;
+use ga_physics::ode::{Rk4, RungeKutta};
 use ga_physics::rigid::rotor::{self, AdvanceError, Integrator};
 use ga_physics::rigid::{Bodies, BodyError, Force, Forces, Inertia, Rates, totals};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
@@ -99,14 +99,15 @@ fn the_misprinted_equation_fails() {
     let reference = split_reference(moments, omega, duration, 4000);
     let attitude = |misprint: bool| {
         let (mut bodies, inertias) = spinning(1.0, moments, omega);
-        let mut rk4 = Rk4::new(bodies.clone(), Rates::zeros(1));
+        let mut rk4 = RungeKutta::<Rk4, _, f64>::new(bodies.clone(), Rates::zeros(1));
+        let mut motion = |_: f64, state: &Bodies<f64>, rates: &mut Rates<f64>| {
+            rotor::rhs(state, &inertias, Vector::default(), std::iter::empty::<&Force<f64>>(), rates);
+            if misprint {
+                rates.rotor[0] = (state.omega_body(0, &inertias[0]) * state.rotor[0]) * -0.5;
+            }
+        };
         for _ in 0..steps {
-            rk4.step(&mut bodies, 0.0, duration / f64::from(steps), |_, state, rates| {
-                rotor::rhs(state, &inertias, Vector::default(), std::iter::empty::<&Force<f64>>(), rates);
-                if misprint {
-                    rates.rotor[0] = (state.omega_body(0, &inertias[0]) * state.rotor[0]) * -0.5;
-                }
-            });
+            let Ok(()) = rk4.step(&mut bodies, 0.0, duration / f64::from(steps), &mut motion);
             rotor::renormalise(&mut bodies, 0.0).unwrap();
         }
         quaternion(bodies.rotor[0]).angle_to(&reference)
