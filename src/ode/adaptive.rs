@@ -6,11 +6,12 @@ use super::stepper::MAX_STEPS;
 use super::{Controlled, Embedded, OdeError, Run, State, StepError, Stepper, System, Tolerance, ToleranceError, Work};
 use crate::algebra::Real;
 
-/// A remainder before a stop is taken whole if it is at most this much longer than the step: a step of a hundredth would
-/// cost as much as a whole one.
+/// A remainder before a stop is taken whole if it is at most this much longer than the step: a step of a hundredth
+/// would cost as much as a whole one.
 const LAST_STEP: f64 = 1.01;
 
-/// The time resolves a step that comes out within this part of it. Coarser, a step that failed could come out as long again.
+/// The time resolves a step that comes out within this part of it. Coarser, a step that failed could come out as long
+/// again.
 const RESOLVED: f64 = 0.1;
 
 /// Integrates with a method that estimates its error, `Adaptive::<Dop853, _, _>`.

@@ -8,10 +8,11 @@
 //! predictive   h_next = safety h ratio^(-1/k) * (h / h_before) (ratio_before / ratio)^(1/k)
 //! ```
 //!
-//! The predictive rule (Gustafsson 1994; Hairer, Wanner 1996, IV.8, equation 8.25) goes on changing the step as it changed
-//! before, so that it does not fail again and again where the solution becomes harder step by step, as on the way into the
-//! near point of an orbit. The smaller of the two is taken. On Kepler orbits of eccentricity 0.9 it needs a fifth fewer
-//! evaluations for the same error than the plain rule, and a quarter fewer than PI control with 0.7/k and 0.4/k.
+//! The predictive rule (Gustafsson 1994; Hairer, Wanner 1996, IV.8, equation 8.25) goes on changing the step as it
+//! changed before, so that it does not fail again and again where the solution becomes harder step by step, as on the
+//! way into the near point of an orbit. The smaller of the two is taken. On Kepler orbits of eccentricity 0.9 it needs
+//! a fifth fewer evaluations of DOP853 for one error than the plain rule, and a quarter fewer than PI control with
+//! 0.7/k and 0.4/k.
 
 /// Of the step that would just pass. Nine in ten of the next steps then do (Hairer, Nørsett, Wanner 1993, II.4).
 const SAFETY: f64 = 0.9;
@@ -70,9 +71,9 @@ impl Controller {
     }
 }
 
-/// The logarithm of a positive normal number, to 1e-6: more digits of an error nobody knows. With `t = (m - r) / (m + r)`
-/// and `r = sqrt(2)`, `log2(m) = 1/2 + 2 / ln 2 (t + t³/3 + t⁵/5 + ..)`, `|t| < 0.172`. (`libm::pow` costs as much as
-/// several evaluations of a small right-hand side.)
+/// The logarithm of a positive normal number, to 1e-6: more digits of an error nobody knows. With `t = (m - r) / (m +
+/// r)` and `r = sqrt(2)`, `log2(m) = 1/2 + 2 / ln 2 (t + t³/3 + t⁵/5 + ..)`, `|t| < 0.172`. (`libm::pow` costs as much
+/// as several evaluations of a small right-hand side.)
 #[inline(always)]
 fn log2(x: f64) -> f64 {
     const MANTISSA: u64 = (1 << 52) - 1;
@@ -123,7 +124,8 @@ pub(super) fn first_guess(rate: f64, rtol: f64) -> f64 {
     if rate > 0.0 && guess.is_finite() && guess > 0.0 { guess } else { STILL_STEP_S }
 }
 
-/// The first step from that guess and from the change of the rate over it, per second (Hairer, Nørsett, Wanner 1993, II.4).
+/// The first step from that guess and from the change of the rate over it, per second (Hairer, Nørsett, Wanner 1993,
+/// II.4).
 pub(super) fn first_step(guess: f64, rate: f64, change: f64, order: u32) -> f64 {
     let largest = rate.max(change);
     let step = if largest <= 1e-15 {

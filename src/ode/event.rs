@@ -1,7 +1,8 @@
 //! Events: the times at which a function of the state passes through zero.
 //!
-//! The function is sampled along the dense output of every step; a change of sign is located with [`root::find`](super::root).
-//! An event is as exact as the dense output there. Two crossings within an eighth of a step may be missed.
+//! The function is sampled along the dense output of every step; a change of sign is located with
+//! [`root::find`](super::root). An event is as exact as the dense output there. Two crossings within an eighth of a
+//! step may be missed.
 
 use super::root::{self, Sample};
 use super::{OdeError, Stepper};
@@ -89,7 +90,8 @@ impl<'a, S> Watch<'a, S> {
         (self.at_s, self.primed) = (from_s, false);
     }
 
-    /// Looks along the last step, up to a time at most. The first event that ends the run, with the state there in `out`.
+    /// Looks along the last step, up to a time at most. The first event that ends the run, with the state there in
+    /// `out`.
     pub(super) fn scan<Y: ?Sized, P: Stepper<Y, State = S> + ?Sized>(
         &mut self,
         stepper: &mut P,

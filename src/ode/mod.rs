@@ -1,5 +1,5 @@
-//! Integrators of ordinary differential equations `dy/dt = f(t, y)`. They know no bodies: a [`State`] says how a rate moves
-//! it, a [`System`] what its rate is.
+//! Integrators of ordinary differential equations `dy/dt = f(t, y)`. They know no bodies: a [`State`] says how a rate
+//! moves it, a [`System`] what its rate is.
 //!
 //! | method | order | evaluations a step | error | dense output | for |
 //! |---|---|---|---|---|---|
@@ -13,8 +13,8 @@
 //! | [`Composition::Yoshida4`] | 4 | 3 | | 4 (3) | the same |
 //! | [`Composition::Yoshida6`] | 6 | 7 | | 6 (7) | the same |
 //!
-//! [`Adaptive`] chooses steps by a tolerance, [`Fixed`] and [`Symplectic`] make equal ones; all are [`Stepper`]s. Steps are
-//! as long as they are; the state at any time comes from dense output.
+//! [`Adaptive`] chooses steps by a tolerance, [`Fixed`] and [`Symplectic`] make equal ones; all are [`Stepper`]s. Steps
+//! are as long as they are; the state at any time comes from dense output.
 //!
 //! # Equations of your own
 //!
@@ -38,8 +38,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A system that can fail, or that must be put back onto a manifold after each step, implements [`System`] itself; a state
-//! that is a structure of arrays implements [`State`] and [`Controlled`].
+//! A system that can fail, or that must be put back onto a manifold after each step, implements [`System`] itself; a
+//! state that is a structure of arrays implements [`State`] and [`Controlled`].
 //!
 //! # Events
 //!

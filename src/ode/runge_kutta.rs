@@ -4,8 +4,8 @@ use super::tableau::Start;
 use super::{State, System, Tableau};
 use crate::algebra::Real;
 
-/// Stage storage, allocated once, for steps of whatever length the caller likes. For runs of steps, with output at given
-/// times, see [`Fixed`](super::Fixed) and [`Adaptive`](super::Adaptive).
+/// Stage storage, allocated once, for steps of whatever length the caller likes. For runs of steps, with output at
+/// given times, see [`Fixed`](super::Fixed) and [`Adaptive`](super::Adaptive).
 #[derive(Clone, Debug)]
 pub struct RungeKutta<M: Tableau, S: State<T>, T> {
     stage: S,

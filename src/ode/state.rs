@@ -1,7 +1,7 @@
 //! What a stepper asks of a state: to be moved by rates, and to say how large an error is.
 //!
-//! Arrays, vectors and nalgebra's fixed vectors are states whose rate is of the same type. Structures of arrays implement
-//! the traits themselves, so that a step touches each array once.
+//! Arrays, vectors and nalgebra's fixed vectors are states whose rate is of the same type. Structures of arrays
+//! implement the traits themselves, so that a step touches each array once.
 
 use crate::algebra::Real;
 use alloc::vec::Vec;
@@ -23,8 +23,8 @@ pub trait State<T> {
 
 /// A state whose error can be measured, for steppers that choose their own step.
 pub trait Controlled<T>: State<T> {
-    /// The error of a step in units of what is allowed, `max_i |sum_j h_j k_j|_i / (atol + rtol max(|y_i|, |next_i|))`: the
-    /// step is good if this is at most 1. (Report, B.3: "the highest error relative to the allowable".)
+    /// The error of a step in units of what is allowed, `max_i |sum_j h_j k_j|_i / (atol + rtol max(|y_i|, |next_i|))`:
+    /// the step is good if this is at most 1. (Report, B.3: "the highest error relative to the allowable".)
     ///
     /// Not finite if any of the numbers is not. A number without error counts 0 even where nothing is allowed.
     fn error_ratio(&self, next: &Self, terms: &[(T, &Self::Rate)], tolerance: Tolerance<T>) -> T;

@@ -14,9 +14,9 @@ pub struct Work {
     pub rejected: u64,
 }
 
-/// Steps that [`Stepper::advance_to`] takes at most, unless the integrator is told otherwise: about a minute of the
-/// cheapest steps, more than any run that is going well.
-pub const MAX_STEPS: u64 = 1_000_000_000;
+/// Steps that [`Stepper::advance_to`] takes at most, unless the integrator is told otherwise: half a minute of the
+/// cheapest there are. A run that needs more on the way to one output does not go as it should.
+pub const MAX_STEPS: u64 = 100_000_000;
 
 /// A run of steps, whatever it integrates.
 pub trait Run {
@@ -35,8 +35,8 @@ pub trait Run {
     fn max_steps(&self) -> u64;
     /// Continues from another time and state, as after an impact. Counters go on.
     fn restart(&mut self, t_s: f64, state: &Self::State);
-    /// No step goes past this time, because the right-hand side jumps there. To go on, let it jump and [restart](Self::restart),
-    /// for the rate at the end of a step is kept for the next. Infinity: no such time.
+    /// No step goes past this time, because the right-hand side jumps there. To go on, let it jump and
+    /// [restart](Self::restart), for the rate at the end of a step is kept for the next. Infinity: no such time.
     fn stop_at(&mut self, t_s: f64);
 }
 
@@ -57,8 +57,8 @@ pub trait Stepper<Y: ?Sized>: Run {
     /// A time outside of the last step; those of the system.
     fn interpolate(&mut self, system: &mut Y, t_s: f64, out: &mut Self::State) -> Result<(), OdeError<Self::Error>>;
 
-    /// Steps until the time is reached, and writes the state there. The last step may end later; it is not wasted, but gone
-    /// on from.
+    /// Steps until the time is reached, and writes the state there. The last step may end later; it is not wasted, but
+    /// gone on from.
     ///
     /// # Errors
     /// A step that cannot be made, too many of them, a time before the last step.
@@ -74,8 +74,8 @@ pub trait Stepper<Y: ?Sized>: Run {
         self.interpolate(system, t_s, out)
     }
 
-    /// As [`advance_to`](Self::advance_to), but stops at the first event that ends it; `out` is then the state there. Events
-    /// that end nothing are told to `seen`, with the state, in the order of time.
+    /// As [`advance_to`](Self::advance_to), but stops at the first event that ends it; `out` is then the state there.
+    /// Events that end nothing are told to `seen`, with the state, in the order of time.
     ///
     /// # Errors
     /// Those of `advance_to`.

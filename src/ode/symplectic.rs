@@ -6,12 +6,12 @@
 //! v += w h/2 a(x)     x += w h v     v += w h/2 a(x)
 //! ```
 //!
-//! and a composition makes substeps of lengths `w_1 h, .., w_n h` that sum to h. Two kicks at one place are made as one,
-//! and the last acceleration is the first of the next step: one evaluation a substep. The steps stay equal, and the energy
-//! of a conservative system then errs by a bounded amount, however long the run.
+//! and a composition makes substeps of lengths `w_1 h, .., w_n h` that sum to h. Two kicks at one place are made as
+//! one, and the last acceleration is the first of the next step: one evaluation a substep. The steps stay equal, and
+//! the energy of a conservative system then errs by a bounded amount, however long the run.
 //!
-//! The state within a step is that of a shorter step from its start, of the same order: output between the ends of steps
-//! costs an evaluation a substep.
+//! The state within a step is that of a shorter step from its start, of the same order: output between the ends of
+//! steps costs an evaluation a substep.
 
 use super::fixed::Ticks;
 use super::stepper::MAX_STEPS;

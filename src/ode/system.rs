@@ -16,8 +16,8 @@ pub trait System<S: State<T>, T> {
     /// What the system says. It ends the step; the state is then that before the step.
     fn rate(&mut self, t_s: f64, state: &S, rate: &mut S::Rate) -> Result<(), Self::Error>;
 
-    /// After every accepted step, and on every interpolated state: back onto the manifold (unit norm, constraints). True if
-    /// it changed the state: the rate there is then computed anew.
+    /// After every accepted step, and on every interpolated state: back onto the manifold (unit norm, constraints).
+    /// True if it changed the state: the rate there is then computed anew.
     ///
     /// # Errors
     /// What the system says.
@@ -38,8 +38,8 @@ impl<S: State<T>, T, F: FnMut(f64, &S, &mut S::Rate) + ?Sized> System<S, T> for 
 
 /// Motion `x' = v, v' = a(t, x)`, for velocity Verlet and its compositions.
 ///
-/// The acceleration must not depend on the velocity: with drag these methods still run, but are of order 1. A constrained
-/// system overrides `drift` and `settle`, which makes velocity Verlet RATTLE (Andersen 1983).
+/// The acceleration must not depend on the velocity: with drag these methods still run, but are of order 1. A
+/// constrained system overrides `drift` and `settle`, which makes velocity Verlet RATTLE (Andersen 1983).
 pub trait Mechanics<S, T> {
     /// Why a step cannot be made.
     type Error;
@@ -61,8 +61,9 @@ pub trait Mechanics<S, T> {
     /// What the system says.
     fn drift(&mut self, t_s: f64, state: &mut S, h_s: T) -> Result<(), Self::Error>;
 
-    /// After the last kick of a step of `h_s`: velocities back on the constraints. Between the substeps of a composition
-    /// two kicks at one place are made as one, and need it not: the next SHAKE takes out what a projection would.
+    /// After the last kick of a step of `h_s`: velocities back on the constraints. Between the substeps of a
+    /// composition two kicks at one place are made as one, and need it not: the next SHAKE takes out what a projection
+    /// would.
     ///
     /// # Errors
     /// What the system says.

@@ -125,9 +125,9 @@ pub struct Entry(pub usize, pub Number);
 #[derive(Clone, Copy, Debug)]
 pub struct Bend {
     /// Power of theta.
-    pub up: i32,
+    pub up: u32,
     /// Power of 1 - theta.
-    pub down: i32,
+    pub down: u32,
     /// Multiple of the whole step.
     pub whole: Number,
     /// d
@@ -150,9 +150,8 @@ impl Coefficients {
         self.stages.len() + 2
     }
 
-    /// `b_i(theta)` of dense output, for all rates:
-    /// `theta b + theta (1 - theta) (e_1 - b) + theta² (1 - theta) (2 b - e_1 - e_end)` (the cubic, with unit vectors e) and
-    /// the bends.
+    /// `b_i(theta)` of dense output, for all rates: `theta b + theta (1 - theta) (e_1 - b) + theta² (1 - theta) (2 b -
+    /// e_1 - e_end)` (the cubic, with unit vectors e) and the bends.
     #[must_use]
     pub fn dense_weights<const N: usize>(&self, theta: f64) -> [f64; N] {
         let rest = 1.0 - theta;
@@ -162,7 +161,8 @@ impl Coefficients {
         weights[0] += first - second;
         weights[self.end() - 1] -= second;
         for bend in self.bends {
-            let shape = libm::pow(theta, f64::from(bend.up)) * libm::pow(rest, f64::from(bend.down));
+            let power = |x: f64, n: u32| (0..n).fold(1.0, |power, _| power * x);
+            let shape = power(theta, bend.up) * power(rest, bend.down);
             whole += shape * bend.whole.value;
             for Entry(index, number) in bend.entries {
                 weights[index - 1] += shape * number.value;
@@ -198,9 +198,16 @@ macro_rules! tableau {
                     stages: &[$( table::Stage { c: number!($c), a: &[$( table::Entry($j, number!($a)) ),*] } ),*],
                     weights: &[$( table::Entry($bj, number!($b)) ),*],
                     errors: &[$($( &[$( table::Entry($ej, number!($e)) ),*] ),+)?],
-                    dense_stages: &[$( table::Stage { c: number!($dc), a: &[$( table::Entry($dj, number!($da)) ),*] } ),*],
+                    dense_stages: &[$(
+                        table::Stage { c: number!($dc), a: &[$( table::Entry($dj, number!($da)) ),*] }
+                    ),*],
                     bends: &[$(
-                        table::Bend { up: $up, down: $down, whole: number!($whole), entries: &[$( table::Entry($pj, number!($p)) ),*] }
+                        table::Bend {
+                            up: $up,
+                            down: $down,
+                            whole: number!($whole),
+                            entries: &[$( table::Entry($pj, number!($p)) ),*],
+                        }
                     ),*],
                     n_rates: $rates,
                 }

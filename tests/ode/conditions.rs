@@ -1,8 +1,9 @@
 //! The order conditions of every table, in exact arithmetic of the numbers as they are written.
 //!
-//! A method is of order p if, for every rooted tree of at most p vertices, `sum_i b_i g_i = 1 / gamma`, where g of a leaf
-//! is 1, g of a tree is the product of `A g` over the subtrees at its root, and gamma is the number of vertices times the
-//! gammas of the subtrees (Butcher 1963; Hairer, Nørsett, Wanner 1993, II.2). There are 200 trees of at most 8 vertices.
+//! A method is of order p if, for every rooted tree of at most p vertices, `sum_i b_i g_i = 1 / gamma`, where g of a
+//! leaf is 1, g of a tree is the product of `A g` over the subtrees at its root, and gamma is the number of vertices
+//! times the gammas of the subtrees (Butcher 1963; Hairer, Nørsett, Wanner 1993, II.2). There are 200 trees of at most
+//! 8 vertices.
 
 use ga_physics::ode::tableau::{Coefficients, Entry, Number};
 use ga_physics::ode::{CashKarp, Dop853, Embedded, Euler, Rk4, Rk4Doubling, Tableau, Tsit5};
@@ -132,8 +133,9 @@ fn dot(a: &[BigInt], b: &[BigInt]) -> BigInt {
     a.iter().zip(b).filter(|(a, _)| !a.is_zero()).map(|(a, b)| a * b).sum()
 }
 
-/// How far a table is from each condition, and what the rounding of every coefficient by one part in `1 / rounding` can make
-/// of it: `(vertices, residual, bound)`, in units of the condition. With `error`, the conditions are that an estimate vanishes.
+/// How far a table is from each condition, and what the rounding of every coefficient by one part in `1 / rounding` can
+/// make of it: `(vertices, residual, bound)`, in units of the condition. With `error`, the conditions are that an
+/// estimate vanishes.
 fn residuals(table: &Exact, trees: &[Tree], error: Option<usize>, rounding: f64) -> Vec<(u32, f64, f64)> {
     let (signed, absolute) = (table.stage_weights(trees), table.absolute());
     let sizes = absolute.stage_weights(trees);
@@ -155,8 +157,8 @@ fn ratio(a: &BigInt, b: &BigInt) -> f64 {
     BigRational::new(a.clone(), b.clone()).to_f64().unwrap()
 }
 
-/// The order of a method or of an estimate: the largest for which all conditions hold within the rounding of the table. The
-/// first that fails must fail by far.
+/// The order of a method or of an estimate: the largest for which all conditions hold within the rounding of the table.
+/// The first that fails must fail by far.
 fn order_of(table: &Exact, error: Option<usize>, rounding: f64, most: u32) -> u32 {
     let residuals = residuals(table, &trees(most), error, rounding);
     let holds = |n: u32| residuals.iter().filter(|found| found.0 == n).all(|found| found.1 <= found.2);
@@ -213,8 +215,8 @@ fn times_are_the_sums_of_their_rows_and_numbers_are_their_texts() {
     }
 }
 
-/// Row 4 of the report's Table 4 lost its first entry; the fractions of row 6 slipped by a column. The printed row sums to
-/// 3/10 where its time is 3/5, so that already the second condition fails.
+/// Row 4 of the report's Table 4 lost its first entry; the fractions of row 6 slipped by a column. The printed row sums
+/// to 3/10 where its time is 3/5, so that already the second condition fails.
 #[test]
 fn the_misprinted_table_4_is_of_order_1() {
     let number = |n: i64, d: i64| BigRational::new(n.into(), d.into());

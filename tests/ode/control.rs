@@ -1,4 +1,5 @@
-//! Step control: errors follow the tolerance, work is counted, what cannot be integrated is a typed error with a remedy.
+//! Step control: errors follow the tolerance, work is counted, what cannot be integrated is a typed error with a
+//! remedy.
 
 use crate::problems::{Kepler, distance};
 use ga_physics::nalgebra::SVector;
@@ -62,8 +63,8 @@ fn dop853_needs_far_fewer_evaluations_than_cash_karp() {
     }
 }
 
-/// An orbit of eccentricity 0.9: the steps on the way to the near point shrink by the same factor again and again, which the
-/// controller foresees. Without its trend a quarter of the steps fail.
+/// An orbit of eccentricity 0.9: the steps on the way to the near point shrink by the same factor again and again,
+/// which the controller foresees. Without its trend a quarter of the steps fail.
 #[test]
 fn few_steps_fail_on_an_eccentric_orbit() {
     let (error, work) = kepler::<Dop853>(0.9, 10.0, 1e-12);
@@ -169,8 +170,8 @@ fn an_error_of_the_system_leaves_the_last_good_step() {
     assert!(distance(&out, &[10_f64.cos(), 10_f64.sin()]) < 1e-2, "{out:?}");
 }
 
-/// Also at a coarse tolerance, also between the ends of steps, the state is where it must be; the rate at a state that was
-/// moved is asked for anew.
+/// Also at a coarse tolerance, also between the ends of steps, the state is where it must be; the rate at a state that
+/// was moved is asked for anew.
 #[test]
 fn settled_states_stay_on_their_circle() {
     let mut circle = Circle { fails_from_s: f64::INFINITY, evals: 0 };

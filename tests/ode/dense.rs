@@ -55,7 +55,8 @@ fn output_within_a_step_has_its_order() {
     }
 }
 
-/// The steps, and so the end, are the same however often output is asked for; all output is as good as the tolerance says.
+/// The steps, and so the end, are the same however often output is asked for; all output is as good as the tolerance
+/// says.
 #[test]
 fn output_at_a_frame_rate_changes_nothing() {
     fn run<M: Embedded>(frames: u32) -> ([f64; 4], f64, u64) {
@@ -82,7 +83,8 @@ fn output_at_a_frame_rate_changes_nothing() {
     check::<Dop853>("DOP853");
 }
 
-/// A push that ends at t = 1 is integrated exactly where no step goes past its end, and the rate is asked for anew there.
+/// A push that ends at t = 1 is integrated exactly where no step goes past its end, and the rate is asked for anew
+/// there.
 #[test]
 fn no_step_goes_past_a_stop() {
     let force = Cell::new(3.0);

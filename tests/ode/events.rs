@@ -143,7 +143,8 @@ fn hard_roots_are_found_within_few_calls() {
     near(solve(|x| 1.0 / x - 1e6, 1e-8, 1.0), 1e-6, 80);
     // A step: no better than bisection can be.
     near(solve(|x| if x < 0.3 { -1.0 } else { 1.0 }, 0.0, 1.0), 0.3, 160);
-    // A triple root is known to no better than the cube root of what the value resolves; the sign is right all the same.
+    // A triple root is known to no better than the cube root of what the value resolves; the sign is right all the
+    // same.
     assert!((solve(|x| (x - 0.7).powi(3), 0.0, 1.0).0 - 0.7).abs() < 1e-15);
 }
 

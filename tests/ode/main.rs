@@ -1,5 +1,5 @@
-//! The integrators: orders of convergence and of dense output, order conditions in exact arithmetic, step control, events,
-//! counters, symplectic motion.
+//! The integrators: orders of convergence and of dense output, order conditions in exact arithmetic, step control,
+//! events, counters, symplectic motion.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod conditions;

@@ -1,5 +1,5 @@
-//! Symplectic methods over long times: the energy errs by a bounded amount, where that of a Runge-Kutta method of the same
-//! cost drifts.
+//! Symplectic methods over long times: the energy errs by a bounded amount, where that of a Runge-Kutta method of the
+//! same cost drifts.
 
 use crate::problems::{Kepler, distance};
 use ga_physics::ode::{Composition, Fixed, Mechanics, OdeError, Rk4, Run, Stepper, Symplectic};

@@ -5,8 +5,8 @@ use super::{number, tableau};
 tableau! {
     /// The pair of orders 5(4) of Cash and Karp: six evaluations a step.
     ///
-    /// Two rows of the report's Table 4 are misprinted: row 4 lost its first entry (its times and rows then disagree, and the method is of order 1), and
-    /// the last weights slipped by a column. These are the ones of the paper.
+    /// Two rows of the report's Table 4 are misprinted: row 4 lost its first entry (its times and rows then disagree,
+    /// and the method is of order 1), and the last weights slipped by a column. These are the ones of the paper.
     CashKarp: order 5, rates 7;
     2 at 1.0 / 5.0 => [1: 1.0 / 5.0];
     3 at 3.0 / 10.0 => [1: 3.0 / 40.0, 2: 9.0 / 40.0];

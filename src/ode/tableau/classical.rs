@@ -18,12 +18,12 @@ tableau! {
 }
 
 tableau! {
-    /// The classical method with every step taken once whole and once in halves (report, B.3.1), as the one method of eleven
-    /// stages that this is: 1 to 4 the whole step, 1, 5, 6, 7 the first half, 8 to 11 the second.
+    /// The classical method with every step taken once whole and once in halves (report, B.3.1), as the one method of
+    /// eleven stages that this is: 1 to 4 the whole step, 1, 5, 6, 7 the first half, 8 to 11 the second.
     ///
-    /// The result is `two + (two - one) / 15`, of order 5 (Richardson; local extrapolation), and the estimate
-    /// `(two - one) / 15` that of the error of the halves, of order 4 (Hairer, Nørsett, Wanner 1993, II.4). Dense output is
-    /// the quartic that also goes through the middle.
+    /// The result is `two + (two - one) / 15`, of order 5 (Richardson; local extrapolation), and the estimate `(two -
+    /// one) / 15` that of the error of the halves, of order 4 (Hairer, Nørsett, Wanner 1993, II.4). Dense output is the
+    /// quartic that also goes through the middle.
     Rk4Doubling: order 5, rates 12;
     2 at 1.0 / 2.0 => [1: 1.0 / 2.0];
     3 at 1.0 / 2.0 => [2: 1.0 / 2.0];

@@ -1,12 +1,12 @@
-//! Dormand and Prince 1989, with the estimates and the dense output of Hairer, Nørsett and Wanner 1993 (Solving Ordinary
-//! Differential Equations I, II.5 and II.6), whose decimals these are.
+//! Dormand and Prince 1989, with the estimates and the dense output of Hairer, Nørsett and Wanner 1993 (Solving
+//! Ordinary Differential Equations I, II.5 and II.6), whose decimals these are.
 #![expect(clippy::excessive_precision, reason = "as published")]
 
 use super::{number, tableau};
 
 tableau! {
-    /// The method of order 8 with estimates of orders 5 and 3 and dense output of order 7: twelve evaluations a step, three
-    /// more for dense output where it is asked for.
+    /// The method of order 8 with estimates of orders 5 and 3 and dense output of order 7: twelve evaluations a step,
+    /// three more for dense output where it is asked for.
     ///
     /// The estimates are joined so that they fall like one of order 7.
     Dop853: order 8, rates 16;
