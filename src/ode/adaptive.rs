@@ -96,6 +96,9 @@ impl<M: Embedded, T: Real, S: Controlled<T>> Adaptive<M, S, T> {
     fn search<Y: System<S, T> + ?Sized>(&mut self, mut wanted: f64, system: &mut Y) -> Result<f64, OdeError<Y::Error>> {
         let from_s = self.segment.from_s;
         let left = self.stop_s - from_s;
+        if left <= 0.0 {
+            return Err(OdeError::Stopped { stop_s: self.stop_s });
+        }
         loop {
             let last = left <= LAST_STEP * wanted;
             let to_s = if last { self.stop_s } else { from_s + wanted };

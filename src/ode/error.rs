@@ -8,16 +8,24 @@ pub enum OdeError<E> {
     /// The system itself cannot go on.
     #[error(transparent)]
     System(E),
-    /// The step that holds the tolerance is too small to move the time.
+    /// The step, that of the tolerance or a given one, is too small to move the time.
     #[error(
-        "at {time_s} s the tolerance asks for a step of {step_s:e} s, below the resolution of the time: the solution runs away, \
-         jumps, or is not a number there; if it does none of that, allow a larger error"
+        "at {time_s} s the step has come down to {step_s:e} s, below the resolution of the time: the solution runs away, jumps, \
+         or is not a number there; if it does none of that, allow a larger error or take a larger step"
     )]
     StepTooSmall {
         /// Where the last good step ended.
         time_s: f64,
         /// The step that failed.
         step_s: f64,
+    },
+    /// A step from the time at which steps shall stop.
+    #[error(
+        "no step goes past {stop_s} s: it is the time of `stop_at`; set a later one, and `restart` if the system jumps there"
+    )]
+    Stopped {
+        /// The stop.
+        stop_s: f64,
     },
     /// More steps than allowed.
     #[error(

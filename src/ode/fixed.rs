@@ -30,6 +30,9 @@ impl Ticks {
     /// The end and the length of the next step from a time; shorter before a stop.
     #[expect(clippy::cast_precision_loss, reason = "2^53 steps take years")]
     pub(super) fn next<E>(&self, from_s: f64) -> Result<(f64, f64), OdeError<E>> {
+        if from_s >= self.stop_s {
+            return Err(OdeError::Stopped { stop_s: self.stop_s });
+        }
         let to_s = self.start_s + (self.taken + 1) as f64 * self.step_s;
         let (to_s, h_s) = if to_s >= self.stop_s { (self.stop_s, self.stop_s - from_s) } else { (to_s, self.step_s) };
         if !(to_s > from_s && h_s > 0.0) {
