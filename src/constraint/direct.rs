@@ -5,9 +5,8 @@
 //! serves two links and ten thousand: a pendulum's system costs about as much as written by hand, a chain's is O(n) because
 //! its order has no fill.
 //!
-//! Redundant rows make A singular. A pivot `d_k <= n eps a_kk` is nothing but rounding: `a_kk` is what the eliminations
-//! have been subtracted from, n of them at most, each rounded to `eps a_kk`. Such a row is dropped, its multiplier is 0, and
-//! the others carry it; if the right-hand side does not agree, that is a [`SolveError::Contradiction`].
+//! Redundant rows make A singular. A pivot that rounding alone could have left ([`NOISE`]) drops its row: its multiplier is
+//! 0, and the others carry it; if the right-hand side does not agree, that is a [`SolveError::Contradiction`].
 //!
 //! Why not a crate for the factorisation too: those at hand fail on a singular A or do not tell which rows are redundant,
 //! and are 2 to 800 times slower on small systems. Supernodal ones win from about 20000 rows on, by 2 to 3.
@@ -18,10 +17,18 @@ use super::{InverseMass, Rows, SolveError, Solved};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// A pivot that lost more than this factor of its diagonal has lost as much precision, because the entries of A are
+/// A pivot that is left with less than this of its diagonal has lost as much precision, because the entries of A are
 /// rounded sums: a light particle between heavy ones. Refining with `J W J^T lambda` factor by factor, where nothing is
-/// summed beforehand, brings it back.
-const LOSS_TO_REFINE: f64 = 1e-3;
+/// summed beforehand, brings it back. Without, ten digits remain, more than the steps of any integrator leave.
+const LOSS_TO_REFINE: f64 = 1e-6;
+
+/// What rounding can make of a pivot: `d_k = v . A v` for the v of [`Direct::noise`], and every entry of A is off by its own
+/// roundings, a sum of D products and one subtraction for each elimination, some `4 eps sqrt(a_ii a_jj)` at random; twice
+/// that. A row whose pivot is less is taken for redundant: nobody could tell.
+pub(super) const NOISE: f64 = 8.0 * f64::EPSILON;
+
+/// Pivots over this part of their diagonal are not examined; no v of practical size makes noise of that.
+const SUSPECT: f64 = 1e-6;
 
 /// Each refinement gains the digits that the factor has. With three, 5 digits are enough for all 16.
 const MAX_REFINEMENTS: u32 = 3;
@@ -139,15 +146,13 @@ impl<const D: usize> Direct<D> {
         self.weakest = 1.0;
         let n = self.inv_pivot.len();
         self.filled.copy_from_slice(&self.column_starts[..n]);
-        #[expect(clippy::cast_precision_loss, reason = "a count")]
-        let rounding = n as f64 * f64::EPSILON;
         for k in 0..n {
             let (pivot, diagonal) = self.eliminate(k);
             if !pivot.is_finite() {
                 self.work.fill(0.0);
                 return Err(SolveError::NotFinite { row: self.normal.order[k] as usize });
             }
-            if pivot <= rounding * diagonal {
+            if pivot <= SUSPECT * diagonal && pivot <= self.noise(k, diagonal) {
                 self.inv_pivot[k] = 0.0;
                 self.redundant.push(self.normal.order[k]);
             } else {
@@ -181,6 +186,26 @@ impl<const D: usize> Direct<D> {
             self.factor[end] = l;
         }
         (pivot, diagonal)
+    }
+
+    /// What rounding can make of pivot k, on average: `v_k = 1` and `L^T v = 0` before, so that `d_k = v . A v`.
+    fn noise(&mut self, k: usize, diagonal: f64) -> f64 {
+        let before = self.row_starts[k] as usize..self.row_starts[k + 1] as usize;
+        self.work[k] = 1.0;
+        let mut sum = diagonal;
+        for j in self.column[before.clone()].iter().rev() {
+            let j = *j as usize;
+            let known = self.column_starts[j] as usize..self.filled[j] as usize;
+            let terms = self.row[known.clone()].iter().zip(&self.factor[known]);
+            let v: f64 = terms.map(|(row, l)| l * self.work[*row as usize]).sum();
+            self.work[j] = -v;
+            sum += v * v * self.normal.row(j).1.last().copied().unwrap_or(0.0);
+        }
+        self.work[k] = 0.0;
+        for j in &self.column[before] {
+            self.work[*j as usize] = 0.0;
+        }
+        NOISE * sum
     }
 
     /// `x = A^-1 b` by the factor, with 0 for dropped rows.

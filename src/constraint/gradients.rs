@@ -7,6 +7,7 @@
 //! Redundant rows make A singular. The iterates stay in the range of A plus the start, where it is regular, so consistent
 //! systems are solved as well as others; contradicting ones do not converge, which is said.
 
+use super::direct::NOISE;
 use super::preconditioner::{Incomplete, Preconditioner};
 use super::rows::dot;
 use super::{InverseMass, Rows, SolveError, Solved};
@@ -45,6 +46,7 @@ pub struct ConjugateGradients<const D: usize> {
     /// When to stop.
     pub stop: Stop,
     preconditioner: Preconditioner<D>,
+    diagonal: Vec<f64>,
     residual: Vec<f64>,
     direction: Vec<f64>,
     image: Vec<f64>,
@@ -58,6 +60,7 @@ impl<const D: usize> ConjugateGradients<D> {
         Self {
             stop,
             preconditioner,
+            diagonal: zeros(),
             residual: zeros(),
             direction: zeros(),
             image: zeros(),
@@ -69,10 +72,10 @@ impl<const D: usize> ConjugateGradients<D> {
     /// Preconditioned by the diagonal of A: the least memory.
     #[must_use]
     pub fn jacobi(rows: &Rows<D>, stop: Stop) -> Self {
-        Self::with(rows, stop, Preconditioner::Diagonal(vec![0.0; rows.len()]))
+        Self::with(rows, stop, Preconditioner::Diagonal)
     }
 
-    /// Preconditioned by an incomplete factor of A in the order of the rows: exact for a chain whose rows go along it.
+    /// Preconditioned by an incomplete factor of A: exact for chains and trees.
     #[must_use]
     pub fn incomplete(rows: &Rows<D>, inverse_mass: &(impl InverseMass<D> + ?Sized), stop: Stop) -> Self {
         Self::with(rows, stop, Preconditioner::Incomplete(Box::new(Incomplete::new(rows, inverse_mass))))
@@ -83,6 +86,7 @@ impl<const D: usize> ConjugateGradients<D> {
     /// # Errors
     /// A gradient or mass that is not finite.
     pub fn prepare(&mut self, rows: &Rows<D>, inverse_mass: &(impl InverseMass<D> + ?Sized)) -> Result<(), SolveError> {
+        diagonal(rows, inverse_mass, &mut self.diagonal)?;
         self.preconditioner.prepare(rows, inverse_mass)
     }
 
@@ -97,7 +101,18 @@ impl<const D: usize> ConjugateGradients<D> {
         b: &[f64],
         lambda: &mut [f64],
     ) -> Result<Solved, SolveError> {
-        let goal = (self.stop.relative * norm(b)).max(self.stop.absolute);
+        self.solve_to(self.stop, rows, inverse_mass, b, lambda)
+    }
+
+    pub(super) fn solve_to(
+        &mut self,
+        stop: Stop,
+        rows: &Rows<D>,
+        inverse_mass: &(impl InverseMass<D> + ?Sized),
+        b: &[f64],
+        lambda: &mut [f64],
+    ) -> Result<Solved, SolveError> {
+        let goal = (stop.relative * norm(b)).max(stop.absolute);
         let mut iterations = 0;
         for _ in 0..=MAX_RESTARTS {
             rows.normal_times(inverse_mass, lambda, &mut self.room, &mut self.image);
@@ -110,9 +125,9 @@ impl<const D: usize> ConjugateGradients<D> {
             if norm(&self.residual) <= goal {
                 return Ok(Solved { converged: true, iterations });
             }
-            let done = self.descend(rows, inverse_mass, lambda, goal, self.stop.max_iterations - iterations);
+            let done = self.descend(rows, inverse_mass, lambda, goal, stop.max_iterations - iterations);
             iterations += done;
-            if done == 0 || iterations >= self.stop.max_iterations {
+            if done == 0 || iterations >= stop.max_iterations {
                 break;
             }
         }
@@ -131,7 +146,7 @@ impl<const D: usize> ConjugateGradients<D> {
         self.direction.fill(0.0);
         let mut last = 0.0;
         for iteration in 0..most {
-            self.preconditioner.apply(&self.residual, &mut self.preconditioned);
+            self.preconditioner.apply(&self.diagonal, &self.residual, &mut self.preconditioned);
             let descent = inner(&self.residual, &self.preconditioned);
             let beta = if iteration == 0 { 0.0 } else { descent / last };
             for (direction, fresh) in self.direction.iter_mut().zip(&self.preconditioned) {
@@ -139,8 +154,10 @@ impl<const D: usize> ConjugateGradients<D> {
             }
             rows.normal_times(inverse_mass, &self.direction, &mut self.room, &mut self.image);
             let curvature = inner(&self.direction, &self.image);
-            // A direction that A does not see: what is left of the residual is out of its range.
-            if !(curvature > 0.0 && descent > 0.0) {
+            let squares = self.direction.iter().zip(&self.diagonal).map(|(p, diagonal)| p * p * diagonal);
+            // A direction that A does not see: what is left of the residual is out of its range, and a step along it
+            // would lead nowhere, far away.
+            if !(curvature > NOISE * squares.sum::<f64>() && descent > 0.0) {
                 return iteration;
             }
             let alpha = descent / curvature;
@@ -167,16 +184,19 @@ fn norm(a: &[f64]) -> f64 {
     inner(a, a).sqrt()
 }
 
-/// The diagonal of A, inverted; 0 for a row that nothing moves.
-pub(super) fn inverse_diagonal<const D: usize>(
+/// The diagonal of A.
+fn diagonal<const D: usize>(
     rows: &Rows<D>,
     inverse_mass: &(impl InverseMass<D> + ?Sized),
     out: &mut [f64],
-) {
-    for (row, out) in out.iter_mut().enumerate() {
-        let entries = rows.row(row);
-        let response = |index: usize| inverse_mass.accelerate(entries.blocks[index] as usize, entries.gradients[index]);
-        let diagonal: f64 = (0..entries.blocks.len()).map(|i| dot(&entries.gradients[i], &response(i))).sum();
-        *out = if diagonal == 0.0 { 0.0 } else { 1.0 / diagonal };
+) -> Result<(), SolveError> {
+    for (index, out) in out.iter_mut().enumerate() {
+        let row = rows.row(index);
+        let entries = row.blocks.iter().zip(row.gradients);
+        *out = entries.map(|(block, g)| dot(g, &inverse_mass.accelerate(*block as usize, *g))).sum();
+        if !out.is_finite() {
+            return Err(SolveError::NotFinite { row: index });
+        }
     }
+    Ok(())
 }

@@ -4,8 +4,13 @@
 //! The rows that the caller refills may meanwhile be elsewhere.
 
 use super::{ConjugateGradients, Direct, InverseMass, Rows, SolveError, Solved, Stop};
+use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
+
+/// Conjugate gradients stop a step of Newton's method here: a step with a frozen factor rarely gains more than four digits,
+/// and iterations for more would solve for what the next step solves for.
+const STEP_ACCURACY: f64 = 1e-4;
 
 /// Which solver.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,8 +23,8 @@ pub enum Method {
 
 #[derive(Clone, Debug)]
 pub(super) enum Solver<const D: usize> {
-    Direct(Direct<D>),
-    ConjugateGradients(ConjugateGradients<D>),
+    Direct(Box<Direct<D>>),
+    ConjugateGradients(Box<ConjugateGradients<D>>),
 }
 
 /// The multipliers of constraints at frozen gradients. See the [module](self).
@@ -29,6 +34,8 @@ pub struct Multipliers<const D: usize> {
     pub(super) frozen: Rows<D>,
     pub(super) valid: bool,
     pub(super) lambda: Vec<f64>,
+    /// The multipliers of the last projection along frozen gradients.
+    pub(super) along: Vec<f64>,
     pub(super) step: Vec<[f64; D]>,
     pub(super) total: Vec<[f64; D]>,
     speed: Vec<f64>,
@@ -39,9 +46,9 @@ impl<const D: usize> Multipliers<D> {
     #[must_use]
     pub fn new(rows: &Rows<D>, inverse_mass: &(impl InverseMass<D> + ?Sized), method: Method) -> Self {
         let solver = match method {
-            Method::Direct => Solver::Direct(Direct::new(rows, inverse_mass)),
+            Method::Direct => Solver::Direct(Box::new(Direct::new(rows, inverse_mass))),
             Method::ConjugateGradients(stop) => {
-                Solver::ConjugateGradients(ConjugateGradients::incomplete(rows, inverse_mass, stop))
+                Solver::ConjugateGradients(Box::new(ConjugateGradients::incomplete(rows, inverse_mass, stop)))
             }
         };
         let blocks = || vec![[0.0; D]; rows.blocks()];
@@ -51,6 +58,7 @@ impl<const D: usize> Multipliers<D> {
             frozen: rows.clone(),
             valid: false,
             lambda: numbers(),
+            along: numbers(),
             step: blocks(),
             total: blocks(),
             speed: numbers(),
@@ -136,7 +144,7 @@ impl<const D: usize> Multipliers<D> {
         let outcome = self.solve_leaving(inverse_mass, &speed, &mut lambda);
         (self.speed, self.lambda) = (speed, lambda);
         outcome?;
-        self.respond(inverse_mass);
+        displacement(&self.frozen, inverse_mass, &self.lambda, &mut self.step);
         Ok(&self.step)
     }
 
@@ -146,24 +154,29 @@ impl<const D: usize> Multipliers<D> {
         inverse_mass: &(impl InverseMass<D> + ?Sized),
         b: &[f64],
     ) -> Result<(), SolveError> {
-        let Self { solver, frozen, lambda, .. } = self;
+        let Self { solver, frozen, lambda, step, .. } = self;
         match solver {
             Solver::Direct(solver) => solver.solve_roughly(b, lambda)?,
             Solver::ConjugateGradients(solver) => {
                 lambda.fill(0.0);
-                solver.solve(frozen, inverse_mass, b, lambda).map(drop)?;
+                let stop = Stop { relative: solver.stop.relative.max(STEP_ACCURACY), ..solver.stop };
+                solver.solve_to(stop, frozen, inverse_mass, b, lambda).map(drop)?;
             }
         }
-        self.respond(inverse_mass);
+        displacement(frozen, inverse_mass, lambda, step);
         Ok(())
     }
+}
 
-    /// `step = -W J^T lambda`.
-    fn respond(&mut self, inverse_mass: &(impl InverseMass<D> + ?Sized)) {
-        let Self { frozen, lambda, step, .. } = self;
-        frozen.response(inverse_mass, lambda, step);
-        for step in step {
-            *step = step.map(|x| -x);
-        }
+/// `-W J^T lambda`.
+pub(super) fn displacement<const D: usize>(
+    rows: &Rows<D>,
+    inverse_mass: &(impl InverseMass<D> + ?Sized),
+    lambda: &[f64],
+    out: &mut [[f64; D]],
+) {
+    rows.response(inverse_mass, lambda, out);
+    for out in out {
+        *out = out.map(|x| -x);
     }
 }

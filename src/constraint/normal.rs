@@ -24,7 +24,10 @@ pub(super) struct Normal<const D: usize> {
 }
 
 /// The rows that each moving block couples, as lists of (row, entry).
-fn meetings<const D: usize>(rows: &Rows<D>, inverse_mass: &(impl InverseMass<D> + ?Sized)) -> Vec<Vec<(usize, usize)>> {
+pub(super) fn meetings<const D: usize>(
+    rows: &Rows<D>,
+    inverse_mass: &(impl InverseMass<D> + ?Sized),
+) -> Vec<Vec<(usize, usize)>> {
     let mut at_block = vec![Vec::new(); rows.blocks()];
     for row in 0..rows.len() {
         for entry in rows.entries(row) {

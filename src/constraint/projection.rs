@@ -12,6 +12,7 @@
 //! The violation of a row is `|C| / max |g|` over its blocks: how far a single block would have to move, in metres where
 //! the coordinates are.
 
+use super::multipliers::displacement;
 use super::rows::dot;
 use super::{InverseMass, Multipliers, Rows, SolveError};
 use thiserror::Error;
@@ -74,38 +75,38 @@ const MAX_HALVINGS: u32 = 10;
 /// chains of any size a factorisation costs as much as two to six of them.
 const PATIENCE: f64 = 3.0;
 
-/// The worst row and its violation, m.
-fn worst<const D: usize>(rows: &Rows<D>) -> Result<(usize, f64), ProjectionError> {
-    let mut worst = (0, 0.0);
-    for index in 0..rows.len() {
-        let row = rows.row(index);
-        if row.value == 0.0 {
-            continue;
-        }
-        let steepest = row.gradients.iter().fold(0.0_f64, |most, gradient| most.max(dot(gradient, gradient)));
-        if steepest == 0.0 {
-            return Err(ProjectionError::NoGradient { row: index });
-        }
-        let violation = row.value.abs() / steepest.sqrt();
-        if !violation.is_finite() {
-            return Err(SolveError::NotFinite { row: index }.into());
-        }
-        if violation > worst.1 {
-            worst = (index, violation);
-        }
-    }
-    Ok(worst)
-}
+/// The same where the old directions are wanted for their own sake: an integrator stays symmetric with them.
+const PATIENCE_ALONG: f64 = 12.0;
 
-impl<const D: usize> Multipliers<D> {
-    /// The worst violation of rows, m, and which row; (0, 0.0) for none.
+impl<const D: usize> Rows<D> {
+    /// The worst row and its violation, m; `(0, 0.0)` when all hold.
     ///
     /// # Errors
     /// A number that is not finite, a violated row without gradient.
-    pub fn worst_violation(rows: &Rows<D>) -> Result<(usize, f64), ProjectionError> {
-        worst(rows)
+    pub fn worst_violation(&self) -> Result<(usize, f64), ProjectionError> {
+        let mut worst = (0, 0.0);
+        for index in 0..self.len() {
+            let row = self.row(index);
+            if !row.value.is_finite() {
+                return Err(SolveError::NotFinite { row: index }.into());
+            }
+            if row.value == 0.0 {
+                continue;
+            }
+            let steepest = row.gradients.iter().fold(0.0_f64, |most, gradient| most.max(dot(gradient, gradient)));
+            if steepest == 0.0 {
+                return Err(ProjectionError::NoGradient { row: index });
+            }
+            let violation = row.value.abs() / steepest.sqrt();
+            if violation > worst.1 {
+                worst = (index, violation);
+            }
+        }
+        Ok(worst)
     }
+}
 
+impl<const D: usize> Multipliers<D> {
     /// Moves a configuration until every row is violated by at most `tolerance_m`. A factor of an earlier `freeze` or
     /// projection is used as long as it serves. `rows` are those of the configuration; afterwards they hold their values
     /// at its end.
@@ -119,14 +120,19 @@ impl<const D: usize> Multipliers<D> {
         configuration: &mut C,
         tolerance_m: f64,
     ) -> Result<Projected, ProjectionError> {
-        self.newton(rows, inverse_mass, configuration, tolerance_m, true)
+        self.total.fill([0.0; D]);
+        self.newton(rows, inverse_mass, configuration, tolerance_m, PATIENCE)
     }
 
-    /// The same along the gradients of the last `freeze` alone, `q - W J_frozen^T mu`: the projection within a step of
-    /// SHAKE and RATTLE (Andersen 1983), whose forces act along the gradients at the start of the step. Never freezes.
+    /// The same along the gradients of the last `freeze`, `q - W J_frozen^T mu`: the projection within a step of SHAKE and
+    /// RATTLE (Andersen 1983), whose forces act along the gradients at the start of the step. `warm` is what part of the
+    /// last such mu to begin with: `(h / h_last)²` within a motion, 0 after anything else.
+    ///
+    /// Where the gradients turn too much within the step, or are singular, there is no such mu, or none is found in
+    /// reasonable time. The way goes on along the present gradients then, and [`Projected::factorisations`] is not 0.
     ///
     /// # Errors
-    /// See [`ProjectionError`]; the step is too long when the gradients turn much within it.
+    /// See [`ProjectionError`].
     ///
     /// # Panics
     /// Without an earlier `freeze`.
@@ -136,9 +142,13 @@ impl<const D: usize> Multipliers<D> {
         inverse_mass: &(impl InverseMass<D> + ?Sized),
         configuration: &mut C,
         tolerance_m: f64,
+        warm: f64,
     ) -> Result<Projected, ProjectionError> {
         assert!(self.valid, "no gradients are frozen: the projection along them needs a `freeze`");
-        self.newton(rows, inverse_mass, configuration, tolerance_m, false)
+        self.along.iter_mut().for_each(|mu| *mu *= warm);
+        displacement(&self.frozen, inverse_mass, &self.along, &mut self.total);
+        configuration.displace(&self.total);
+        self.newton(rows, inverse_mass, configuration, tolerance_m, PATIENCE_ALONG)
     }
 
     /// How far the last projection moved every block, m.
@@ -153,55 +163,55 @@ impl<const D: usize> Multipliers<D> {
         inverse_mass: &(impl InverseMass<D> + ?Sized),
         configuration: &mut C,
         tolerance_m: f64,
-        may_freeze: bool,
+        patience: f64,
     ) -> Result<Projected, ProjectionError> {
-        self.total.fill([0.0; D]);
         configuration.evaluate(rows);
         let (mut evaluations, mut factorisations) = (1, 0);
-        let (mut row, mut violation_m) = worst(rows)?;
+        let (mut row, mut violation_m) = rows.worst_violation()?;
         let mut stale = !self.valid;
         for _ in 0..MAX_STEPS {
             if violation_m <= tolerance_m {
                 return Ok(Projected { evaluations, factorisations, violation_m });
             }
-            if stale && may_freeze {
+            let fresh = stale;
+            if stale {
                 self.freeze(rows, inverse_mass)?;
                 factorisations += 1;
             }
-            let fresh = stale && may_freeze;
             self.newton_step(inverse_mass, rows.values())?;
             let (tried, found) = self.descend(rows, configuration, violation_m)?;
             evaluations += tried;
             match found {
-                Some(better) => {
-                    stale = is_slow(violation_m, better.1, tolerance_m);
-                    (row, violation_m) = better;
+                Some(Taken { part, row: next, violation_m: next_m }) => {
+                    // Of several directions the sum is no beginning for the next step.
+                    let (kept, taken) = if factorisations == 0 { (1.0, part) } else { (0.0, 0.0) };
+                    self.along.iter_mut().zip(&self.lambda).for_each(|(mu, lambda)| *mu = kept * *mu + taken * lambda);
+                    let patience = if factorisations == 0 { patience } else { PATIENCE };
+                    stale = is_slow(violation_m, next_m, tolerance_m, patience);
+                    (row, violation_m) = (next, next_m);
                 }
                 // With its own gradients a step must go down, if only a little. With older ones, that is why it did not.
-                None if fresh || !may_freeze => break,
+                None if fresh => break,
                 None => stale = true,
             }
-        }
-        if violation_m <= tolerance_m {
-            return Ok(Projected { evaluations, factorisations, violation_m });
         }
         Err(ProjectionError::NotConverged { row, violation_m, evaluations })
     }
 
-    /// Takes the step at hand, or as much of it as brings the worst violation down. How many evaluations that took, and
-    /// what is worst then; none if no part of the step is better, and everything is as before.
+    /// Takes the step at hand, or as much of it as brings the worst violation down. How many evaluations that took, which
+    /// part of the step it was, and what is worst then; none if no part is better, and everything is as before.
     fn descend<C: Configuration<D>>(
         &mut self,
         rows: &mut Rows<D>,
         configuration: &mut C,
         violation_m: f64,
-    ) -> Result<(u32, Option<(usize, f64)>), ProjectionError> {
+    ) -> Result<(u32, Option<Taken>), ProjectionError> {
         configuration.displace(&self.step);
         let mut part = 1.0;
         for halving in 0..=MAX_HALVINGS {
             configuration.evaluate(rows);
             // A long step may leave the range of the numbers or hit a point without gradient: shorter ones do not.
-            if let Ok(worst) = worst(rows)
+            if let Ok(worst) = rows.worst_violation()
                 && worst.1 < violation_m
             {
                 for (total, step) in self.total.iter_mut().zip(&self.step) {
@@ -209,7 +219,7 @@ impl<const D: usize> Multipliers<D> {
                         *total += part * step;
                     }
                 }
-                return Ok((halving + 1, Some(worst)));
+                return Ok((halving + 1, Some(Taken { part, row: worst.0, violation_m: worst.1 })));
             }
             // Back to half of it, at the end all the way.
             let back = if halving == MAX_HALVINGS { part } else { 0.5 * part };
@@ -232,7 +242,14 @@ fn move_by<const D: usize, C: Configuration<D>>(configuration: &mut C, step: &mu
     }
 }
 
-/// Whether at this rate more than [`PATIENCE`] steps are to come.
-fn is_slow(before: f64, after: f64, tolerance: f64) -> bool {
-    after > tolerance && (tolerance / after).ln() < PATIENCE * (after / before).ln()
+/// The part of a step that was taken, and the worst row after it.
+struct Taken {
+    part: f64,
+    row: usize,
+    violation_m: f64,
+}
+
+/// Whether at this rate more steps are to come than one has patience for.
+fn is_slow(before: f64, after: f64, tolerance: f64, patience: f64) -> bool {
+    after > tolerance && (tolerance / after).ln() < patience * (after / before).ln()
 }

@@ -17,6 +17,10 @@ const D: usize = 3;
 /// of them errs by one eps, the length of three such by less than two, and moving there rounds again.
 const ROUNDING_EPS: f64 = 4.0;
 
+/// Steps whose squares grow by more than this begin without the last multipliers: the error of what they promise would be
+/// more than that of promising nothing.
+const MAX_WARM: f64 = 4.0;
+
 /// Rows, solver and room for them.
 #[derive(Clone, Debug)]
 pub(super) struct Held {
@@ -28,6 +32,8 @@ pub(super) struct Held {
     /// The positions at which the rows were evaluated and the multipliers frozen; empty if elsewhere.
     frozen_at: Vec<Point<f64>>,
     violation_m: f64,
+    /// The step of the last [`shake`](Self::shake), s; 0 for none.
+    last_h_s: f64,
     redundant: usize,
     scratch: Scratch,
 }
@@ -85,6 +91,7 @@ impl Held {
             right_side: vec![0.0; rows.len()],
             frozen_at: Vec::with_capacity(start.len()),
             violation_m: solver.violation * shortest(&setup.constraints),
+            last_h_s: 0.0,
             redundant: 0,
             scratch: Scratch::default(),
             inv_mass,
@@ -205,7 +212,11 @@ impl Held {
             return Ok(());
         };
         let mut positions = Positions { constraints, position: &mut state.position, scratch };
-        multipliers.project_along_frozen(rows, inv_mass.as_slice(), &mut positions, tolerance_m)?;
+        // Multipliers go with the square of the step; of a very different one they tell nothing.
+        let squared = (h_s / self.last_h_s).powi(2);
+        let warm = if squared < MAX_WARM { squared } else { 0.0 };
+        self.last_h_s = h_s;
+        multipliers.project_along_frozen(rows, inv_mass.as_slice(), &mut positions, tolerance_m, warm)?;
         for (velocity, moved) in state.velocity.iter_mut().zip(multipliers.displacement()) {
             *velocity += (Vector::from(*moved) / h_s).map(T::from_f64);
         }
