@@ -156,7 +156,9 @@ fn the_estimate_of_the_substeps_keeps_the_violation() {
     assert!((fine as f64 / coarse as f64 - 10.0).abs() < 0.1, "{coarse} {fine}: h² is as the violation");
     assert_eq!(xpbd.substeps(1.0, 0.0, 1e-2), 1);
 
-    for (columns, rows, fold, fixed) in [(1, 51, 0.0, vec![0]), (8, 20, 0.0, (0..8).collect()), (10, 10, 1.0, vec![0, 9])] {
+    for (columns, rows, fold, fixed) in
+        [(1, 51, 0.0, vec![0]), (8, 20, 0.0, (0..8).collect()), (10, 10, 1.0, vec![0, 9])]
+    {
         let (mut particles, constraints) = net::<f64>(columns, rows, 0.1, fold);
         let mut inv_mass = vec![100.0; particles.len()];
         fixed.iter().for_each(|particle: &usize| inv_mass[*particle] = 0.0);
@@ -269,6 +271,7 @@ fn a_pendulum_tends_to_the_reference() {
             let order = (pair[0] / pair[1]).log2();
             assert!((order - 1.0).abs() < 0.3, "observed order {order} from {errors:?} with {held:?}");
         }
-        assert!(errors[2] < 1e-2, "{errors:?}");
+        // What is left when the first order is taken out.
+        assert!((2.0 * errors[2] - errors[1]).abs() < 1e-3, "{errors:?}");
     }
 }

@@ -67,7 +67,7 @@ fn swing((mut particles, inv_mass, constraints): (Particles<f64>, Vec<f64>, Vec<
 }
 
 /// Of the state after [`swing`], in every build: only sums, products, quotients and square roots go into it.
-const SWUNG: u64 = 0;
+const SWUNG: u64 = 0xffce_7f4a_15bf_887a;
 
 #[test]
 fn order_and_threads_leave_no_trace() {
@@ -120,7 +120,11 @@ fn a_bead_stays_on_plane_sphere_and_circle() {
         let (off, radius) = (from.e2.abs(), from.norm_sq().sqrt());
         // Positions of 3e5 m have an ulp of 6e-11 m.
         assert!(off < 2e-10, "off the plane by {off:e}");
-        assert_eq!((radius - 0.5).abs() < 2e-10, held.len() == 2 || matches!(&held[0], Constraint::On { surface, .. } if surface.no != 0.0), "{radius}");
+        assert_eq!(
+            (radius - 0.5).abs() < 2e-10,
+            held.len() == 2 || matches!(&held[0], Constraint::On { surface, .. } if surface.no != 0.0),
+            "{radius}"
+        );
         let violation = xpbd.max_violation(&bead);
         assert!(violation.absolute_m < 2e-10 && violation.relative < 1e-9, "{violation:?}");
     }
@@ -188,7 +192,8 @@ fn all_scales_behave_alike() {
         inv_mass.iter_mut().for_each(|w| *w *= scale);
         let mut xpbd = Xpbd::new(&particles, &inv_mass, &constraints).unwrap();
         let gravity = Vector::new(1.0, 0.0, -G) * scale;
-        assert_eq!(xpbd.substeps(1.0 / 60.0, G * scale, 1e-2), 12);
+        // Five particles hang from each link at the top: usual / AGAIN gives h² = 0.4 e d / (2 2 5 g).
+        assert_eq!(xpbd.substeps(1.0 / 60.0, G * scale, 1e-2), 11);
         (0..30).for_each(|_| xpbd.step(&mut particles, &inv_mass, &substeps(1.0 / 60.0, 20), gravity));
         xpbd.max_violation(&particles).relative
     });
