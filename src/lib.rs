@@ -81,6 +81,8 @@
 //!
 //! `wide`, `twofloat` and `num-dual` make SIMD lanes, double-double and dual numbers [scalars](algebra::Scalar). The first
 //! two need no standard library.
+//!
+//! `parallel` spreads large nets of [`particle::xpbd`] over threads, with the same bits as on one; it implies `physics`.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 extern crate alloc;

@@ -148,9 +148,9 @@ impl Cuts {
         }
         let total = starts[depth.len()];
         let mut cuts = Self { starts, links: vec![0; total], mass_beyond: vec![0.0; total] };
-        for particle in 0..level.len() {
+        for (particle, w) in inv_mass.iter().enumerate() {
             if let Some(cut) = cuts.of(particle, level, component) {
-                cuts.mass_beyond[cut] += 1.0 / inv_mass[particle].to_f64();
+                cuts.mass_beyond[cut] += 1.0 / w.to_f64();
             }
         }
         for index in 0..level.len() {

@@ -106,7 +106,9 @@ impl Part {
             used[link.b as usize] = 0;
         }
         coloured.sort_by_key(|(colour, _)| *colour);
-        let links: Vec<Link> = coloured.into_iter().map(|(_, link)| link).collect();
+        let mut links: Vec<Link> = coloured.into_iter().map(|(_, link)| link).collect();
+        // It is collected in the place of the pairs, which were larger.
+        links.shrink_to_fit();
         Self { again: Vec::with_capacity(links.len().div_ceil(GROUP)), links }
     }
 }

@@ -33,7 +33,8 @@ impl Held {
 
     /// None for what has no points, or no more than one.
     pub(super) fn on(particle: usize, anchor: Point<f64>, surface: Round<f64>) -> Option<Self> {
-        let square = surface | surface;
+        let Round { e1, e2, e3, no, ninf } = surface;
+        let square = Vector::new(e1, e2, e3).norm_sq() - 2.0 * no * ninf;
         let size = square.sqrt();
         (square > 0.0 && size.is_finite()).then_some(Self { particle: index(particle), anchor, surface, size })
     }
