@@ -1,12 +1,13 @@
-//! The tables: Markdown on standard output, one line a way.
+//! The tables: Markdown, one line a way.
 
 use crate::cases::{Case, distance};
 use crate::kepler::{Orbit, Solved, Solver, fewest_evaluations};
 use crate::measure::{Rounds, Spread, Watched, Way, time_call, time_run, watch};
 use crate::pendulum;
+use std::io::{Result, Write};
 
 /// Ways on one case. The first is the base of the ratios.
-pub fn mechanics(case: &Case, ways: &[Way], rounds: usize) {
+pub fn mechanics(out: &mut impl Write, case: &Case, ways: &[Way], rounds: usize) -> Result<()> {
     let watched: Vec<Watched> = ways.iter().map(|way| watch(case, way)).collect();
     let times = Rounds::take(ways.len(), rounds, |way| time_run(case, &ways[way]) / case.duration_s());
     for (i, (way, watched)) in ways.iter().zip(&watched).enumerate() {
@@ -18,7 +19,8 @@ pub fn mechanics(case: &Case, ways: &[Way], rounds: usize) {
                 format!("{step_ms:.4} | {} | {}", spread(time, 1e3, 3), spread(ratio, 1.0, 2))
             }
         };
-        println!(
+        writeln!(
+            out,
             "| {} | {} | {} | {:.1e} | {:.1e} | {:.1e} | {outcome} |",
             case.name,
             way.name,
@@ -26,15 +28,18 @@ pub fn mechanics(case: &Case, ways: &[Way], rounds: usize) {
             watched.stretch,
             watched.violation,
             watched.energy_drift
-        );
+        )?;
     }
+    Ok(())
 }
 
-pub fn mechanics_head() {
-    println!(
+pub fn mechanics_head(out: &mut impl Write) -> Result<()> {
+    writeln!(
+        out,
         "\n| case | way | error at the end (m) | stretch | violation | energy drift | CPU ms per step | CPU ms per simulated s | over the first |"
-    );
-    println!("|---|---|---:|---:|---:|---:|---:|---:|---:|");
+    )?;
+    writeln!(out, "|---|---|---:|---:|---:|---:|---:|---:|---:|")?;
+    Ok(())
 }
 
 fn pendulum_error(case: &Case, watched: &Watched) -> String {
@@ -48,11 +53,12 @@ fn pendulum_error(case: &Case, watched: &Watched) -> String {
 }
 
 /// Errors, evaluations and times of solvers on a long eccentric orbit. The first solver is the base of the ratios.
-pub fn kepler(orbit: Orbit, solvers: &[Solver], tolerances: &[f64], rounds: usize) {
-    println!(
+pub fn kepler(out: &mut impl Write, orbit: Orbit, solvers: &[Solver], tolerances: &[f64], rounds: usize) -> Result<()> {
+    writeln!(
+        out,
         "\n| tolerance | solver | error at the end | evaluations | CPU ms | ns per evaluation | ms over the first |"
-    );
-    println!("|---:|---|---:|---:|---:|---:|---:|");
+    )?;
+    writeln!(out, "|---:|---|---:|---:|---:|---:|---:|")?;
     for &tolerance in tolerances {
         let times = Rounds::take(solvers.len(), rounds, |i| time_call(|| drop((solvers[i].solve)(orbit, tolerance))));
         for (i, solver) in solvers.iter().enumerate() {
@@ -66,23 +72,25 @@ pub fn kepler(orbit: Orbit, solvers: &[Solver], tolerances: &[f64], rounds: usiz
                 ),
                 Err(error) => error,
             };
-            println!("| {tolerance:.0e} | {} | {line} |", solver.name);
+            writeln!(out, "| {tolerance:.0e} | {} | {line} |", solver.name)?;
         }
     }
+    Ok(())
 }
 
 /// The evaluations that reach an error at the end.
-pub fn work_precision(orbit: Orbit, solvers: &[Solver], errors: &[f64]) {
+pub fn work_precision(out: &mut impl Write, orbit: Orbit, solvers: &[Solver], errors: &[f64]) -> Result<()> {
     let heads: String = errors.iter().map(|error| format!(" {error:.0e} |")).collect();
-    println!("\n| evaluations to reach |{heads}\n|---|{}", "---:|".repeat(errors.len()));
+    writeln!(out, "\n| evaluations to reach |{heads}\n|---|{}", "---:|".repeat(errors.len()))?;
     for solver in solvers {
         let cells: String = errors
             .iter()
             .map(|&error| fewest_evaluations(solver, orbit, error))
             .map(|found| found.map_or(" - |".into(), |(count, tolerance)| format!(" {count} (at {tolerance:.0e}) |")))
             .collect();
-        println!("| {} |{cells}", solver.name);
+        writeln!(out, "| {} |{cells}", solver.name)?;
     }
+    Ok(())
 }
 
 /// `median [low, high]`, the ends of the middle half.
