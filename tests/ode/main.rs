@@ -7,5 +7,6 @@ mod control;
 mod dense;
 mod events;
 mod motion;
+mod limits;
 mod orders;
 mod problems;
