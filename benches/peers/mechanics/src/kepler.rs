@@ -4,6 +4,7 @@
 //! error of position; at the apocentre the particle is slower by (1 + e)/(1 - e), and its error smaller by the same factor.
 
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
+use ga_physics::ode::{self, Adaptive, Embedded, OdeError, Stepper, Tolerance};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, Dopri5, SVector, System};
 use std::f64::consts::TAU;
@@ -58,11 +59,24 @@ pub struct Solved {
     pub evaluations: usize,
 }
 
+/// All, ours first.
+pub fn solvers() -> Vec<Solver> {
+    OURS.into_iter().chain(PEERS).collect()
+}
+
 /// A solver: orbit and tolerance (relative and absolute alike) to the end.
 pub struct Solver {
     pub name: &'static str,
     pub solve: fn(Orbit, f64) -> Result<Solved, String>,
 }
+
+/// Ours.
+pub const OURS: [Solver; 4] = [
+    Solver { name: "ga-physics dop853", solve: ours::<ode::Dop853> },
+    Solver { name: "ga-physics tsit5", solve: ours::<ode::Tsit5> },
+    Solver { name: "ga-physics cash_karp", solve: ours::<ode::CashKarp> },
+    Solver { name: "ga-physics rk4_doubling", solve: ours::<ode::Rk4Doubling> },
+];
 
 /// The solvers of the peers, each with its defaults but for the limit on the number of steps.
 pub const PEERS: [Solver; 6] = [
@@ -90,6 +104,26 @@ impl ODE<f64, State> for Attraction {
 
 /// Far above what any tolerance here needs.
 const MOST_STEPS: u32 = 10_000_000;
+
+fn ours<M: Embedded>(orbit: Orbit, tolerance: f64) -> Result<Solved, String> {
+    let start = orbit.start();
+    let stepper = Adaptive::<M, State, f64>::new(0.0, start, start, Tolerance { rtol: tolerance, atol: tolerance });
+    let mut stepper = stepper.map_err(|error| error.to_string())?.with_max_steps(u64::from(MOST_STEPS));
+    let mut system = |_t: f64, y: &State, dydt: &mut State| *dydt = rate(y);
+    let mut end = start;
+    step_to(&mut stepper, &mut system, orbit.duration(), &mut end).map_err(|error| error.to_string())
+}
+
+fn step_to<Y: ode::System<State, f64>>(
+    stepper: &mut impl Stepper<State, Y, Error = Y::Error>,
+    system: &mut Y,
+    to_s: f64,
+    end: &mut State,
+) -> Result<Solved, OdeError<Y::Error>> {
+    stepper.stop_at(to_s);
+    stepper.advance_to(system, to_s, end)?;
+    Ok(Solved { end: *end, evaluations: stepper.work().rhs_evals as usize })
+}
 
 /// The documented defaults of ode_solvers, with another limit on the steps and only the steps themselves as output.
 macro_rules! ode_solvers_run {

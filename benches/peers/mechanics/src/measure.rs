@@ -14,11 +14,18 @@ pub trait Engine {
     fn read(&self, position_m: &mut Vec<Vector>, velocity_m_s: &mut Vec<Vector>);
 }
 
+type Build = dyn Fn(&Case) -> Result<Box<dyn Engine>, String>;
+
 /// A way to run a case.
-#[derive(Clone, Copy)]
 pub struct Way {
     pub name: &'static str,
-    pub build: fn(&Case) -> Box<dyn Engine>,
+    build: Box<Build>,
+}
+
+impl Way {
+    pub fn new(name: &'static str, build: impl Fn(&Case) -> Result<Box<dyn Engine>, String> + 'static) -> Self {
+        Self { name, build: Box::new(build) }
+    }
 }
 
 /// The errors of a run.
@@ -32,25 +39,28 @@ pub struct Watched {
     pub energy_drift: f64,
     /// Of the last particle, at the end.
     pub last_m: Vector,
-    /// Why the run ended early, with the time.
+    /// Why the run did not begin, or ended early.
     pub failure: Option<String>,
 }
 
 pub fn watch(case: &Case, way: &Way) -> Watched {
-    let mut engine = (way.build)(case);
-    let (mut position, mut velocity) = (Vec::new(), Vec::new());
     let mut watched = Watched::default();
+    let mut engine = match (way.build)(case) {
+        Ok(engine) => engine,
+        Err(error) => return Watched { failure: Some(error), ..watched },
+    };
+    let (mut position, mut velocity) = (Vec::new(), Vec::new());
     engine.read(&mut position, &mut velocity);
     let (start_j, mut drift_j, mut kinetic_j) = (energy_j(case, &position, &velocity).1, 0.0_f64, 0.0_f64);
     for step in 0..case.steps {
         if let Err(error) = engine.step() {
-            watched.failure = Some(format!("{:.3} s: {error}", step as f64 * case.dt_s));
+            watched.failure = Some(format!("ended at {:.3} s: {error}", step as f64 * case.dt_s));
             break;
         }
         engine.read(&mut position, &mut velocity);
         let (kinetic, total) = energy_j(case, &position, &velocity);
         if !total.is_finite() {
-            watched.failure = Some(format!("{:.3} s: not finite", (step + 1) as f64 * case.dt_s));
+            watched.failure = Some(format!("ended at {:.3} s: not finite", (step + 1) as f64 * case.dt_s));
             break;
         }
         drift_j = drift_j.max((total - start_j).abs());
@@ -79,7 +89,9 @@ fn energy_j(case: &Case, position_m: &[Vector], velocity_m_s: &[Vector]) -> (f64
 
 /// CPU seconds of the steps of one run, in a fresh engine.
 pub fn time_run(case: &Case, way: &Way) -> f64 {
-    let mut engine = (way.build)(case);
+    let Ok(mut engine) = (way.build)(case) else {
+        return f64::NAN;
+    };
     let clock = ThreadTime::now();
     for _ in 0..case.steps {
         if engine.step().is_err() {

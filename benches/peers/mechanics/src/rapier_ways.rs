@@ -14,12 +14,12 @@ use rapier3d_f64::prelude::{
 
 /// Rope joints with rapier's defaults.
 pub fn ropes() -> Way {
-    Way { name: "rapier ropes", build: |case| Box::new(Ropes::new(case)) }
+    Way::new("rapier ropes", |case| Ok(Box::new(Ropes::new(case))))
 }
 
 /// The edges of a soft body: distances kept from both sides.
 pub fn soft_edges() -> Way {
-    Way { name: "rapier soft edges", build: |case| Box::new(SoftEdges::new(case)) }
+    Way::new("rapier soft edges", |case| Ok(Box::new(SoftEdges::new(case))))
 }
 
 fn to_rapier(v: Vector) -> RapierVector {

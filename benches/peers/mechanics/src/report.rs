@@ -12,7 +12,7 @@ pub fn mechanics(out: &mut impl Write, case: &Case, ways: &[Way], rounds: usize)
     let times = Rounds::take(ways.len(), rounds, |way| time_run(case, &ways[way]) / case.duration_s());
     for (i, (way, watched)) in ways.iter().zip(&watched).enumerate() {
         let outcome = match &watched.failure {
-            Some(failure) => format!("ended at {failure}"),
+            Some(failure) => failure.clone(),
             None => {
                 let (time, ratio) = (times.time(i), times.ratio(i, 0));
                 let step_ms = time.median * case.dt_s * 1e3;
