@@ -3,7 +3,7 @@
 
 use super::fixed::Ticks;
 use super::stepper::MAX_STEPS;
-use super::{OdeError, StepError, Stepper, Work};
+use super::{OdeError, Run, StepError, Stepper, Work};
 
 /// A system that knows how to step by itself.
 pub trait Leap<S> {
@@ -13,7 +13,7 @@ pub trait Leap<S> {
     /// Takes the state from a time over a step, s.
     ///
     /// # Errors
-    /// What the system says; the state is then that before the step.
+    /// What the system says. It ends the step; the state is then that before the step, whatever was left in it.
     fn leap(&mut self, t_s: f64, state: &mut S, h_s: f64) -> Result<(), Self::Error>;
 }
 
@@ -48,7 +48,7 @@ impl<S: Clone> Leaps<S> {
     }
 }
 
-impl<S: Clone, Y: Leap<S> + ?Sized> Stepper<S, Y> for Leaps<S> {
+impl<S: Clone, Y: Leap<S> + ?Sized> Stepper<Y> for Leaps<S> {
     type Error = Y::Error;
 
     fn step(&mut self, system: &mut Y) -> Result<(), OdeError<Y::Error>> {
@@ -56,7 +56,10 @@ impl<S: Clone, Y: Leap<S> + ?Sized> Stepper<S, Y> for Leaps<S> {
         self.before.clone_from(&self.state);
         self.from_s = self.time_s;
         self.work.rhs_evals += 1;
-        system.leap(self.from_s, &mut self.state, h_s).map_err(OdeError::System)?;
+        if let Err(error) = system.leap(self.from_s, &mut self.state, h_s) {
+            self.state.clone_from(&self.before);
+            return Err(OdeError::System(error));
+        }
         self.time_s = to_s;
         self.ticks.took(to_s);
         self.work.accepted += 1;
@@ -78,8 +81,12 @@ impl<S: Clone, Y: Leap<S> + ?Sized> Stepper<S, Y> for Leaps<S> {
         }
         Ok(())
     }
+}
 
-    fn from_s(&self) -> f64 {
+impl<S: Clone> Run for Leaps<S> {
+    type State = S;
+
+    fn start_s(&self) -> f64 {
         self.from_s
     }
 

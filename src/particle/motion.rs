@@ -33,7 +33,7 @@ pub enum SolverError {
     NotAdaptive(Method),
 }
 
-type Step<T> = Box<dyn Stepper<Particles<T>, System<T>, Error = MotionError> + Send + Sync>;
+type Step<T> = Box<dyn Stepper<System<T>, State = Particles<T>, Error = MotionError> + Send + Sync>;
 
 /// Particles that move.
 pub struct Motion<T: Real> {

@@ -6,7 +6,7 @@ mod conditions;
 mod control;
 mod dense;
 mod events;
-mod motion;
 mod limits;
+mod motion;
 mod orders;
 mod problems;

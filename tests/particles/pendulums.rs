@@ -23,8 +23,8 @@ fn a_period_is_that_of_the_elliptic_integral() {
         let mut stepper = Adaptive::<Dop853, _, _>::new(0.0, state.clone(), Rates::zeros(2), tolerance).unwrap();
         let below = Event::new(Crossing::Either, |_, state: &Particles<f64>| state.position[1].x);
         let (mut watch, mut out, mut times) = (Watch::new(0.0, [below]), state, Vec::new());
-        let seen = |hit: Hit, _: &Particles<f64>| times.push(hit.time_s);
-        stepper.advance_watching(&mut system, 0.9 * expected_s, &mut watch, &mut out, seen).unwrap();
+        let mut seen = |hit: Hit, _: &Particles<f64>| times.push(hit.time_s);
+        stepper.advance_watching(&mut system, 0.9 * expected_s, &mut watch, &mut out, &mut seen).unwrap();
         // Half a period between them.
         let error = (2.0 * (times[1] - times[0]) / expected_s - 1.0).abs();
         assert!(times.len() == 2 && error < 1e-9, "{amplitude_rad} rad: {error:e}");
