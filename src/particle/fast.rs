@@ -78,6 +78,17 @@ impl<T: Real> Leap<Particles<T>> for System<T> {
         self.fast = Some(fast);
         done
     }
+
+    /// Linear, which is of the order of the method.
+    fn between(&mut self, start: &Particles<T>, end: &Particles<T>, part: f64, out: &mut Particles<T>) {
+        for (index, out) in out.position.iter_mut().enumerate() {
+            *out = start.position[index].moved(start.position[index].displacement_to(end.position[index]) * part);
+        }
+        for (index, out) in out.velocity.iter_mut().enumerate() {
+            let gained = end.velocity[index] - start.velocity[index];
+            *out = start.velocity[index] + gained * T::from_f64(part);
+        }
+    }
 }
 
 impl<T: Real> System<T> {
@@ -110,7 +121,7 @@ impl<T: Real> System<T> {
             }
             self.acceleration = acceleration;
             move_by(state, h);
-            let moved = self.held.project_positions(&self.setup.constraints, &mut state.position);
+            let moved = self.held.pull(&self.setup.constraints, &mut state.position);
             let displacement = moved.map_err(|source| MotionError::Projection { time_s: now_s, source })?;
             for (velocity, moved) in state.velocity.iter_mut().zip(displacement) {
                 *velocity += (Vector::from(*moved) / part_s).map(T::from_f64);

@@ -164,8 +164,19 @@ impl Held {
         Ok(self.project_velocities(constraints, state)?)
     }
 
+    /// The same along the gradients where the positions are now: a projection that is a force, not a correction of
+    /// rounding.
+    pub(super) fn pull(
+        &mut self,
+        constraints: &[Constraint],
+        position: &mut [Point<f64>],
+    ) -> Result<&[[f64; D]], ProjectionError> {
+        self.freeze(constraints, position)?;
+        self.project_positions(constraints, position)
+    }
+
     /// Positions onto `C = 0`; how far each moved, m.
-    pub(super) fn project_positions(
+    fn project_positions(
         &mut self,
         constraints: &[Constraint],
         position: &mut [Point<f64>],
@@ -198,29 +209,35 @@ impl Held {
         Ok(())
     }
 
-    /// `x += h v + W Jᵀ mu` with J of the start, so that `C = 0`; v is what led there.
+    /// `x += h v + W Jᵀ mu` with J of the start, so that `C = 0`; v is what led there. Whether such a mu was found; if not,
+    /// `C = 0` was reached along later gradients.
     pub(super) fn shake<T: Real>(
         &mut self,
         constraints: &[Constraint],
         state: &mut Particles<T>,
         h_s: f64,
-    ) -> Result<(), ProjectionError> {
+    ) -> Result<bool, ProjectionError> {
         self.freeze(constraints, &state.position)?;
         move_by(state, T::from_f64(h_s));
         let tolerance_m = self.tolerance(&state.position);
         let Self { multipliers: Some(multipliers), rows, inv_mass, scratch, .. } = self else {
-            return Ok(());
+            return Ok(true);
         };
         let mut positions = Positions { constraints, position: &mut state.position, scratch };
         // Multipliers go with the square of the step; of a very different one they tell nothing.
         let squared = (h_s / self.last_h_s).powi(2);
         let warm = if squared < MAX_WARM { squared } else { 0.0 };
         self.last_h_s = h_s;
-        multipliers.project_along_frozen(rows, inv_mass.as_slice(), &mut positions, tolerance_m, warm)?;
+        let projected =
+            multipliers.project_along_frozen(rows, inv_mass.as_slice(), &mut positions, tolerance_m, warm)?;
+        let straight = projected.factorisations == 0;
+        if !straight {
+            self.frozen_at.clear();
+        }
         for (velocity, moved) in state.velocity.iter_mut().zip(multipliers.displacement()) {
             *velocity += (Vector::from(*moved) / h_s).map(T::from_f64);
         }
-        Ok(())
+        Ok(straight)
     }
 
     /// What projection is asked for, m: no less than rounding leaves.

@@ -58,15 +58,15 @@ fn a_damped_spring_rings_as_theory_says() {
 #[test]
 fn an_orbit_closes_and_keeps_energy_and_angular_momentum() {
     let eccentricity: f64 = 0.6;
-    let mut state = particles(&[[1e9 + 1.0 - eccentricity, -2e9, 5e8]]);
+    let mut state = particles(&[[1e6 + 1.0 - eccentricity, -2e6, 5e5]]);
     state.velocity[0] = Vector::new(0.0, ((1.0 + eccentricity) / (1.0 - eccentricity)).sqrt(), 0.0);
-    let sun = Force::InverseSquareToPoint { point: Point::new(1e9, -2e9, 5e8), constant: 1.0, softening: 0.0 };
-    // So far from the origin a coordinate resolves 1e-7 m: forces are still those of differences.
+    let sun = Force::InverseSquareToPoint { point: Point::new(1e6, -2e6, 5e5), constant: 1.0, softening: 0.0 };
+    // So far from the origin a coordinate resolves 2e-10 m: forces are still those of differences, and 14,000 drifts round.
     let solver = fixed(Method::Yoshida6, std::f64::consts::TAU / 2000.0);
     let mut motion = start((state.clone(), one(sun, 1.0)), &solver);
     motion.advance_to(std::f64::consts::TAU).unwrap();
     let error = motion.state().position[0].distance_sq_to(state.position[0]).sqrt();
-    assert!(error < 1e-4, "{error:e}");
+    assert!(error < 2e-6, "{error:e}");
 }
 
 #[test]

@@ -19,7 +19,10 @@ fn a_folded_net_snaps_taut_and_nothing_blows_up() {
             let (_, violation_m) = motion.worst_violation().unwrap();
             assert!(violation_m <= 1.001 * violation * 0.1, "{method:?}: {violation_m:e}");
             let gained = motion.totals().energy() - energy;
-            assert!(gained < 1e-2 * motion.totals().kinetic.abs().max(1e-3), "{method:?} gained {gained:e}");
+            assert!(
+                gained < 1e-2 * motion.totals().kinetic.abs().max(1e-3),
+                "{method:?} {linear:?} frame {frame} gained {gained:e}"
+            );
         }
     }
 }
@@ -29,7 +32,7 @@ fn a_folded_net_snaps_taut_and_nothing_blows_up() {
 fn a_flat_net_with_a_straight_edge_is_told_to_be_redundant_and_runs() {
     let solver = Solver { violation: 1e-6, ..fixed(Method::Verlet, 1.0 / 240.0) };
     let mut motion = start(net(5, 0.0), &solver);
-    motion.advance_to(0.5).unwrap();
+    motion.advance_to(0.3).unwrap();
     assert!(motion.system().redundant() > 0);
     let (_, violation_m) = motion.worst_violation().unwrap();
     assert!(violation_m <= 1e-7, "{violation_m:e}");

@@ -24,7 +24,8 @@ fn methods_keep_their_order_under_constraints() {
         let (coarse, fine) = (error(dt_s), error(0.5 * dt_s));
         let observed = (coarse / fine).log2();
         println!("{}: {observed:.2} of {order} ({coarse:.1e}, {fine:.1e})", method.name());
-        // A step is no limit: a tenth is for the error of the next order. More is better (Yoshida's leading terms cancel).
-        assert!(observed > order - 0.25 && observed < order + 1.5, "{}: {observed} of {order}", method.name());
+        // A step is no limit: a tenth is for the error of the next order. More is better: a leading
+        // term may be small.
+        assert!(observed > order - 0.25 && observed < order + 2.0, "{}: {observed} of {order}", method.name());
     }
 }
