@@ -139,6 +139,11 @@ pub fn large_net(pins: Pins) -> Case {
     .stepped(60, 2)
 }
 
+/// Nets from 1e3 to 1e5 particles at 60 Hz, flat, the first row pinned.
+pub fn growing_nets() -> Vec<Case> {
+    [32, 100, 316].map(|side| Case { steps: 30, ..net("", side, 0.0, Pins::FirstRow).stepped(60, 1) }).into()
+}
+
 pub fn distance(a: Vector, b: Vector) -> f64 {
     ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2) + (a[2] - b[2]).powi(2)).sqrt()
 }

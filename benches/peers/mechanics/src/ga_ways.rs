@@ -15,7 +15,7 @@ const TIGHT: f64 = 1e-13;
 /// What projection leaves of nets, of the length of a link.
 const NET: f64 = 1e-9;
 
-/// What sweeps are to leave of nets at rest.
+/// What sweeps are to leave of nets.
 const LOOSE: f64 = 1e-2;
 
 /// Of a Runge-Kutta method, relative and absolute.
@@ -45,6 +45,14 @@ pub fn newton() -> Way {
 /// Nets: sweeps link by link, in as many substeps as hold the violation at rest.
 pub fn sweeps() -> Way {
     net("ga-physics xpbd, sweeps", Method::Xpbd, LinearSolver::Sweeps, LOOSE)
+}
+
+/// The same in substeps of one number, whatever the size of the net.
+pub fn sweeps_20() -> Way {
+    way("ga-physics xpbd, 20 sweeps", |case| Solver {
+        substeps: Some(20),
+        ..solver(Method::Xpbd, Steps::Fixed { dt_s: case.dt_s }, LinearSolver::Sweeps, LOOSE)
+    })
 }
 
 fn net(name: &'static str, method: Method, linear: LinearSolver, violation: f64) -> Way {

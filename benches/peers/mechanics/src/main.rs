@@ -66,11 +66,14 @@ fn run(out: &mut impl Write, effort: &Effort) -> io::Result<()> {
     run(cases::double_pendulum(), effort.small, fixed())?;
     run(cases::chain("chain, 0.7 rad", 1.0, cases::PENDULUM_RAD), effort.small, chains())?;
     run(cases::chain("chain, horizontal", 1.0, FRAC_PI_2), effort.small, chains())?;
-    let nets = || vec![ga_ways::rattle(), ga_ways::newton(), ga_ways::sweeps()];
-    run(cases::folded_net(1).lasting(120, "folded net 32 x 32, 0.5 s"), effort.net, nets())?;
+    let nets = || vec![ga_ways::newton(), ga_ways::sweeps()];
+    let with_rattle = vec![ga_ways::rattle(), ga_ways::newton(), ga_ways::sweeps()];
+    run(cases::folded_net(1).lasting(120, "folded net 32 x 32, 0.5 s"), effort.net, with_rattle)?;
     run(cases::folded_net(2), effort.net, nets())?;
     run(cases::large_net(Pins::FirstRow), 1, nets())?;
-    run(cases::large_net(Pins::Corners), 1, nets())
+    run(cases::large_net(Pins::Corners), 1, nets())?;
+    let sizes = cases::growing_nets();
+    report::scaling(out, &sizes, &[ga_ways::sweeps_20(), ga_ways::sweeps()], effort.net)
 }
 
 fn orbits(out: &mut impl Write, effort: &Effort) -> io::Result<()> {

@@ -42,6 +42,22 @@ pub fn mechanics_head(out: &mut impl Write) -> Result<()> {
     Ok(())
 }
 
+/// The cost of a particle and frame.
+pub fn scaling(out: &mut impl Write, cases: &[Case], ways: &[Way], rounds: usize) -> Result<()> {
+    writeln!(out, "\n| particles | way | violation | CPU ms per frame | CPU ns per particle and frame |")?;
+    writeln!(out, "|---:|---|---:|---:|---:|")?;
+    for case in cases {
+        let particles = case.position_m.len();
+        let times = Rounds::take(ways.len(), rounds, |way| time_run(case, &ways[way]) / case.steps as f64);
+        for (i, way) in ways.iter().enumerate() {
+            let (frame, violation) = (times.time(i), watch(case, way).violation);
+            let each = spread(frame, 1e9 / particles as f64, 1);
+            writeln!(out, "| {particles} | {} | {violation:.1e} | {} | {each} |", way.name, spread(frame, 1e3, 3))?;
+        }
+    }
+    Ok(())
+}
+
 fn pendulum_error(case: &Case, watched: &Watched) -> String {
     if case.name != "double pendulum" {
         return "-".into();
