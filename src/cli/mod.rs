@@ -10,7 +10,8 @@ mod run;
 use crate::io::files::WriteError;
 use crate::scene::description::Scalar;
 use crate::scene::{self, Rejected, plan, stderr_wants_colour};
-use clap::{Parser, Subcommand};
+use crate::study;
+use clap::{Parser, Subcommand, ValueEnum};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -68,11 +69,12 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Measure: `kernels` compares generated types with the dynamic multivector and with vector code.
+    /// Measure: `kernels` compares generated types with the dynamic multivector and with vector code, `solvers` what an
+    /// error costs by which integrator.
     Study {
         /// Which studies [default: all].
         names: Vec<Study>,
-        /// A few seconds instead of a minute; wider spreads.
+        /// Seconds instead of minutes; wider spreads, fewer settings.
         #[arg(long)]
         quick: bool,
         /// Directory for the reports.
@@ -81,9 +83,10 @@ enum Command {
     },
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Study {
     Kernels,
+    Solvers,
 }
 
 /// Why a command ends with a code other than 0.
@@ -178,9 +181,14 @@ fn check(path: &Path, sets: &[String]) -> Result<(), Failure> {
 }
 
 fn study(names: &[Study], quick: bool, out: &Path) -> Result<(), Failure> {
-    debug_assert!(names.iter().all(|name| *name == Study::Kernels));
     let mut progress = |line: &str| eprintln!("{line}");
-    let report =
-        crate::study::kernels::run(quick, out, &mut progress).map_err(|error| Failure::run(error.to_string()))?;
-    print(&report.text())
+    let chosen = |study: &&Study| names.is_empty() || names.contains(study);
+    for study in Study::value_variants().iter().filter(chosen) {
+        let text = match study {
+            Study::Kernels => study::kernels::run(quick, out, &mut progress).map(|report| report.text()),
+            Study::Solvers => study::solvers::run(quick, out, &mut progress).map(|report| report.text()),
+        };
+        print(&text.map_err(|error| Failure::run(error.to_string()))?)?;
+    }
+    Ok(())
 }

@@ -1,19 +1,25 @@
 //! The study: what geometric algebra costs and gains, measured by what a user can call.
 //!
 //! [`kernels`] sets the generated types against the dynamic multivector and the traditional formulas, in time and
-//! bytes. A figure is published with the machine, the command, the repeats and the spread, and beside every time stands
-//! the disagreement of the results: a fast wrong kernel would be seen.
+//! bytes. [`solvers`] sets the integrators, the stabilisations and the solvers of constraint forces against closed forms,
+//! in work and time. A figure is published with the machine, the command, the repeats and the spread, and beside every
+//! time stands the disagreement of the results: a fast wrong kernel, or solver, would be seen.
 
 mod chart;
 pub mod kernels;
 mod machine;
+pub mod solvers;
+mod table;
 pub mod timing;
 
 pub use machine::Provenance;
 
 use crate::io::files::{WriteError, write_whole};
+use crate::ode::OdeError;
+use crate::particle::{MotionError, SolverError};
 use std::io;
 use std::path::{Path, PathBuf};
+use timing::Ratio;
 
 /// Why a study gave no figures.
 #[derive(Debug, thiserror::Error)]
@@ -33,6 +39,12 @@ pub enum StudyError {
         /// The largest one that rounding explains.
         limit: f64,
     },
+    /// A solver of the study cannot be used.
+    #[error(transparent)]
+    Solver(#[from] SolverError),
+    /// What the others are held against cannot be computed.
+    #[error("no reference to hold solvers against: {0}")]
+    Reference(#[from] OdeError<MotionError>),
     /// A file or its directory cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -51,6 +63,11 @@ fn rounded(value: f64) -> String {
         value if value < 100.0 => format!("{value:.1}"),
         value => format!("{value:.0}"),
     }
+}
+
+/// `2.05 [2.01, 2.10]`
+fn ratio_text(ratio: Ratio) -> String {
+    format!("{} [{}, {}]", rounded(ratio.value), rounded(ratio.low), rounded(ratio.high))
 }
 
 /// Writes a file of the study, whole or not at all.

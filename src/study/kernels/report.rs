@@ -2,8 +2,9 @@
 
 use super::{Kernel, Role};
 use crate::study::chart::{self, Bar, Group};
+use crate::study::table::Table;
 use crate::study::timing::{Ratio, Samples, Timing};
-use crate::study::{Provenance, StudyError, rounded, write_file};
+use crate::study::{Provenance, StudyError, ratio_text, rounded, write_file};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -71,40 +72,6 @@ impl KernelRow {
     pub fn way(&self, role: Role) -> Option<&WayRow> {
         self.ways.iter().find(|way| way.role == role)
     }
-}
-
-/// Headings and cells, right-aligned but for the first column.
-struct Table(Vec<Vec<String>>);
-
-impl Table {
-    fn text(&self) -> String {
-        let width = |column: usize| self.0.iter().filter_map(|row| row.get(column)).map(|c| c.chars().count()).max();
-        let mut text = String::new();
-        for row in &self.0 {
-            for (column, cell) in row.iter().enumerate() {
-                let width = width(column).unwrap_or(0);
-                let _ = if column == 0 { write!(text, "{cell:<width$}") } else { write!(text, "  {cell:>width$}") };
-            }
-            text.push('\n');
-        }
-        text
-    }
-
-    fn markdown(&self) -> String {
-        let mut text = String::new();
-        for (index, row) in self.0.iter().enumerate() {
-            let _ = writeln!(text, "| {} |", row.join(" | "));
-            if index == 0 {
-                let rules: Vec<&str> = (0..row.len()).map(|column| if column == 0 { "---" } else { "---:" }).collect();
-                let _ = writeln!(text, "| {} |", rules.join(" | "));
-            }
-        }
-        text
-    }
-}
-
-fn ratio_text(ratio: Ratio) -> String {
-    format!("{} [{}, {}]", rounded(ratio.value), rounded(ratio.low), rounded(ratio.high))
 }
 
 const LEGEND: &str = "\
