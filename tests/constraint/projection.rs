@@ -109,8 +109,8 @@ fn along_frozen_gradients_the_displacement_is_an_impulse_of_the_constraints() {
     multipliers.project_along_frozen(&mut rows, w.as_slice(), &mut system, TOLERANCE_M, 0.0).unwrap();
     assert!(system.stretch() < 2.0 * TOLERANCE_M);
     for (k, shaken) in shaken.iter().enumerate() {
-        for axis in 0..3 {
-            let moved = system.position[k][axis] - shaken[axis];
+        for (axis, shaken) in shaken.iter().enumerate() {
+            let moved = system.position[k][axis] - shaken;
             assert!((multipliers.displacement()[k][axis] - moved).abs() < 1e-15);
         }
     }

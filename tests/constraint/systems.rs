@@ -5,35 +5,37 @@ use nalgebra::{DMatrix, DVector};
 
 /// A distance between two particles: `C = (|x_a - x_b|² - d²) / 2`.
 #[derive(Clone, Copy)]
-pub struct Link {
-    pub a: usize,
-    pub b: usize,
-    pub length: f64,
+pub(crate) struct Link {
+    pub(crate) a: usize,
+    pub(crate) b: usize,
+    pub(crate) length: f64,
 }
 
 #[derive(Clone)]
-pub struct System {
-    pub position: Vec<[f64; 3]>,
-    pub velocity: Vec<[f64; 3]>,
-    pub inv_mass: Vec<f64>,
-    pub links: Vec<Link>,
+pub(crate) struct System {
+    pub(crate) position: Vec<[f64; 3]>,
+    pub(crate) velocity: Vec<[f64; 3]>,
+    pub(crate) inv_mass: Vec<f64>,
+    pub(crate) links: Vec<Link>,
 }
 
 /// Numbers in -1 .. 1 that look random (a linear congruence, Knuth 1981, MMIX).
-pub struct Dice(pub u64);
+pub(crate) struct Dice(pub(crate) u64);
 
 impl Dice {
-    pub fn roll(&mut self) -> f64 {
+    pub(crate) fn roll(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    pub fn vector(&mut self) -> [f64; 3] {
+    pub(crate) fn vector(&mut self) -> [f64; 3] {
         std::array::from_fn(|_| self.roll())
     }
 
-    pub fn below(&mut self, n: usize) -> usize {
-        ((self.roll() + 1.0) / 2.0 * n as f64) as usize % n
+    pub(crate) fn below(&mut self, n: usize) -> usize {
+        #[expect(clippy::cast_possible_truncation, reason = "the lowest bits of a roll are as random as the others")]
+        let roll = (self.roll().abs() * (1_u64 << 52) as f64) as usize;
+        roll % n
     }
 }
 
@@ -41,13 +43,13 @@ fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|k| a[k] * b[k]).sum()
 }
 
 impl System {
     /// Links of the present lengths; velocities at random.
-    pub fn new(position: Vec<[f64; 3]>, fixed: &[usize], pairs: &[(usize, usize)]) -> Self {
+    pub(crate) fn new(position: Vec<[f64; 3]>, fixed: &[usize], pairs: &[(usize, usize)]) -> Self {
         let length = |a: usize, b: usize| dot(minus(position[a], position[b]), minus(position[a], position[b])).sqrt();
         let links = pairs.iter().map(|(a, b)| Link { a: *a, b: *b, length: length(*a, *b) }).collect();
         let mut dice = Dice(7);
@@ -58,7 +60,7 @@ impl System {
     }
 
     /// A chain that bends, its first particle fixed.
-    pub fn chain(links: usize) -> Self {
+    pub(crate) fn chain(links: usize) -> Self {
         let mut dice = Dice(links as u64);
         let mut position = vec![[0.0; 3]];
         for k in 0..links {
@@ -70,14 +72,14 @@ impl System {
     }
 
     /// A straight chain of equal links in an oblique direction.
-    pub fn straight(links: usize, fixed: &[usize]) -> Self {
+    pub(crate) fn straight(links: usize, fixed: &[usize]) -> Self {
         let direction = [0.6, 0.48, 0.64];
         let position = (0..=links).map(|k| direction.map(|x| x * k as f64)).collect();
         Self::new(position, fixed, &(0..links).map(|k| (k, k + 1)).collect::<Vec<_>>())
     }
 
     /// A square net, every second column raised by the fold, two corners of the first row fixed.
-    pub fn net(side: usize, fold_rad: f64) -> Self {
+    pub(crate) fn net(side: usize, fold_rad: f64) -> Self {
         let at = |column: usize, row: usize| row * side + column;
         let (mut position, mut pairs) = (Vec::new(), Vec::new());
         for row in 0..side {
@@ -96,14 +98,14 @@ impl System {
     }
 
     /// A tree: every particle hangs on one of those before it.
-    pub fn tree(n: usize, dice: &mut Dice) -> Self {
+    pub(crate) fn tree(n: usize, dice: &mut Dice) -> Self {
         let position = (0..n).map(|_| dice.vector()).collect();
         let pairs: Vec<_> = (1..n).map(|k| (dice.below(k), k)).collect();
         Self::new(position, &[0], &pairs)
     }
 
     /// Links between particles at random, not more than twice as many as particles.
-    pub fn graph(n: usize, links: usize, dice: &mut Dice) -> Self {
+    pub(crate) fn graph(n: usize, links: usize, dice: &mut Dice) -> Self {
         let position = (0..n).map(|_| dice.vector()).collect();
         let mut pairs = Vec::new();
         while pairs.len() < links {
@@ -115,13 +117,13 @@ impl System {
         Self::new(position, &[], &pairs)
     }
 
-    pub fn rows(&self) -> Rows<3> {
+    pub(crate) fn rows(&self) -> Rows<3> {
         let mut rows = Rows::new(self.position.len(), self.links.iter().map(|link| [link.a, link.b]));
         self.fill(&mut rows);
         rows
     }
 
-    pub fn fill(&self, rows: &mut Rows<3>) {
+    pub(crate) fn fill(&self, rows: &mut Rows<3>) {
         for (index, link) in self.links.iter().enumerate() {
             let d = minus(self.position[link.a], self.position[link.b]);
             let v = minus(self.velocity[link.a], self.velocity[link.b]);
@@ -136,12 +138,12 @@ impl System {
     }
 
     /// `J W J^T`, formed densely from its definition.
-    pub fn dense(&self, rows: &Rows<3>) -> DMatrix<f64> {
+    pub(crate) fn dense(&self, rows: &Rows<3>) -> DMatrix<f64> {
         let (j, w) = (self.dense_j(rows), self.dense_w());
         &j * w * j.transpose()
     }
 
-    pub fn dense_j(&self, rows: &Rows<3>) -> DMatrix<f64> {
+    pub(crate) fn dense_j(&self, rows: &Rows<3>) -> DMatrix<f64> {
         let mut j = DMatrix::zeros(rows.len(), 3 * self.position.len());
         for index in 0..rows.len() {
             let row = rows.row(index);
@@ -154,7 +156,7 @@ impl System {
         j
     }
 
-    pub fn dense_w(&self) -> DMatrix<f64> {
+    pub(crate) fn dense_w(&self) -> DMatrix<f64> {
         DMatrix::from_diagonal(&DVector::from_iterator(
             3 * self.inv_mass.len(),
             self.inv_mass.iter().flat_map(|w| [*w; 3]),
@@ -162,7 +164,7 @@ impl System {
     }
 
     /// The largest stretch of a link, m.
-    pub fn stretch(&self) -> f64 {
+    pub(crate) fn stretch(&self) -> f64 {
         let stretch = |link: &Link| {
             let d = minus(self.position[link.a], self.position[link.b]);
             (dot(d, d).sqrt() - link.length).abs()
@@ -171,7 +173,7 @@ impl System {
     }
 
     /// Moves what can move by up to `size`.
-    pub fn shake(&mut self, size: f64, dice: &mut Dice) {
+    pub(crate) fn shake(&mut self, size: f64, dice: &mut Dice) {
         for (position, w) in self.position.iter_mut().zip(&self.inv_mass) {
             if *w != 0.0 {
                 let by = dice.vector();

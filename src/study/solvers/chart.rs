@@ -129,7 +129,7 @@ fn line(area: &Area<'_>, style: &Style, pixels: Vec<(i32, i32)>) -> Result<(), S
         mark(area, style, *at)?;
     }
     if style.dashed {
-        area.draw(&DashedPathElement::new(pixels.into_iter(), 6, 4, stroke))?;
+        area.draw(&DashedPathElement::new(pixels, 6, 4, stroke))?;
     } else {
         area.draw(&PathElement::new(pixels, stroke))?;
     }
