@@ -8,7 +8,7 @@ use std::time::Duration;
 /// Two numbers of steps, the second four times the first; two tolerances, a thousand to one.
 fn scope(first: u32) -> Scope {
     let steps = Ladder { first, stride: 2, count: 2 };
-    Scope { steps, tolerances: Ladder { first: 5, stride: 3, count: 2 }, budget: Duration::ZERO }
+    Scope { steps, tolerances: Ladder { first: 6, stride: 3, count: 2 }, budget: Duration::ZERO }
 }
 
 fn rows<'a>(report: &'a CaseReport, method: &str, constraints: Option<&str>) -> Vec<&'a Row> {
@@ -34,7 +34,7 @@ fn errors_on_an_orbit_fall_with_the_order_of_the_method() {
         let [loose, tight] = rows(&report, method, None)[..] else { panic!("{method}") };
         let (loose, tight) = (loose.figures().unwrap(), tight.figures().unwrap());
         // An error in proportion to the tolerance falls by 1000; one of it to the power of 4/5, by 250.
-        assert!(loose.error_m > 200.0 * tight.error_m, "{method}: {} {}", loose.error_m, tight.error_m);
+        assert!(loose.error_m > 250.0 * tight.error_m, "{method}: {} {}", loose.error_m, tight.error_m);
         assert!(tight.rhs_evals > loose.rhs_evals, "{method}");
     }
     assert!(report.cheapest("euler", 1e-3).is_none(), "the bad method is bad");

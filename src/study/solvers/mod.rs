@@ -7,16 +7,18 @@
 
 mod cases;
 mod chart;
+mod choice;
 mod measure;
 mod page;
 pub mod references;
 mod report;
+mod row;
 
 pub use cases::{Case, Reference, kepler, net, pendulum};
-pub use measure::{
-    Figures, Ladder, Outcome, Purpose, Row, Scope, Setting, Time, middle, run as run_setting, settings, time,
-};
-pub use report::{CaseReport, SolverReport, TARGETS_M};
+pub use choice::TARGETS_M;
+pub use measure::{Ladder, Scope, middle, run as run_setting, settings, time};
+pub use report::{CaseReport, SolverReport};
+pub use row::{Figures, Outcome, Purpose, Row, Setting, Time};
 
 use super::{Provenance, StudyError, write_file};
 use std::path::Path;

@@ -25,10 +25,10 @@ pub(super) fn page() -> Result<String, StudyError> {
     let case = net();
     let times_s: Vec<f64> = (0..=SECONDS * FRAMES_PER_S).map(|i| f64::from(i) / f64::from(FRAMES_PER_S)).collect();
     let mut view = ParticlesView { positions: vec![vec![]; times_s.len()], ..ParticlesView::default() };
-    let mut title = String::from("Cash-Karp at three tolerances, and nothing else to hold the links");
+    let mut title = String::from("Cash-Karp, no stabilisation");
     for rtol in TOLERANCES {
         if let Some(ended_s) = add(&mut view, &case, rtol, &times_s)? {
-            title += &format!("; {rtol:.0e} runs away at {ended_s:.2} s");
+            title += &format!("; rtol {rtol:.0e} runs away at {ended_s:.2} s");
         }
     }
     let (bodies, poses, marks, energy) = (vec![], vec![vec![]; times_s.len()], vec![], vec![]);

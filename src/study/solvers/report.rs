@@ -1,14 +1,11 @@
 //! The figures of the study of solvers as tables, as Markdown and as JSON.
 
 use super::chart::{self, Curve};
-use super::measure::{Figures, Purpose, Row};
+use super::row::{Figures, Outcome, Purpose, Row};
 use crate::study::table::Table;
 use crate::study::{Provenance, StudyError, ratio_text, rounded, write_file};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
-
-/// The errors that the tables of choice ask for, m.
-pub const TARGETS_M: [f64; 3] = [1e-3, 1e-6, 1e-9];
 
 /// The figures of one case.
 #[derive(Clone, Debug, Serialize)]
@@ -47,11 +44,13 @@ ratios within a round with its 95 % interval, which for fewer than six rounds is
 
 const READING: &str = "\
 The tables name the cheapest setting of each method that was measured to end within an error: time, evaluations and the \
-setting. Tolerances go by powers of ten and steps by powers of two, so that a finer search would gain up to that. A tolerance is for the error of a step, and the \
-error at the end is larger. Bold: the least time of the column, and what its interval does not tell from it.";
+setting. Tolerances go by powers of ten and steps by powers of two, so that a finer search would gain up to that. A \
+tolerance bounds the error of a step, not that at the end.";
+
+const BOLD: &str = "Bold: the least time of a column, and what its interval does not tell from it.";
 
 /// `12.3 µs`, `4.56 ms`
-fn duration(ns: f64) -> String {
+pub(super) fn duration(ns: f64) -> String {
     match ns {
         ns if ns < 1e6 => format!("{} µs", rounded(ns / 1e3)),
         ns if ns < 1e9 => format!("{} ms", rounded(ns / 1e6)),
@@ -69,75 +68,24 @@ impl Row {
     }
 
     /// `rtol 1e-6`, `512 steps`
-    fn step(&self) -> String {
+    pub(super) fn step(&self) -> String {
         match (self.setting.rtol, self.setting.steps) {
             (Some(rtol), _) => format!("rtol {rtol:.0e}"),
             (None, steps) => format!("{} steps", steps.unwrap_or_default()),
         }
     }
-
-    fn cost(&self) -> Option<f64> {
-        let figures = self.figures()?;
-        Some(figures.time.as_ref().map_or(figures.rhs_evals as f64, |time| time.timing.median_ns))
-    }
 }
 
 impl CaseReport {
-    fn curve_rows(&self) -> impl Iterator<Item = &Row> {
+    pub(super) fn curve_rows(&self) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(|row| row.setting.purpose == Purpose::Curve)
     }
 
     /// The methods' names in order of appearance.
-    fn methods(&self) -> Vec<String> {
+    pub(super) fn methods(&self) -> Vec<String> {
         let mut labels: Vec<String> = self.curve_rows().map(Row::label).collect();
         labels.dedup();
         labels
-    }
-
-    /// The cheapest row of a method that ends within an error.
-    #[must_use]
-    pub fn cheapest(&self, method: &str, error_m: f64) -> Option<&Row> {
-        let within = |row: &&Row| row.figures().is_some_and(|figures| figures.error_m <= error_m);
-        let rows = self.curve_rows().filter(|row| row.label() == method).filter(within);
-        rows.min_by(|a, b| a.cost().unwrap_or(f64::INFINITY).total_cmp(&b.cost().unwrap_or(f64::INFINITY)))
-    }
-
-    /// What to pick: one line a method, the cheapest for an error of 1e-6 m first.
-    fn choice(&self, bold: bool) -> Table {
-        let mut lines: Vec<(String, [Option<&Row>; 3])> = self
-            .methods()
-            .into_iter()
-            .map(|method| {
-                let cells = TARGETS_M.map(|target| self.cheapest(&method, target));
-                (method, cells)
-            })
-            .collect();
-        let key = |cells: &[Option<&Row>; 3]| {
-            let cost = |index: usize| cells[index].and_then(Row::cost).unwrap_or(f64::INFINITY);
-            [cost(1), cost(0)]
-        };
-        lines.sort_by(|(_, a), (_, b)| {
-            let (a, b) = (key(a), key(b));
-            a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
-        });
-        let best: [Option<&Row>; 3] = std::array::from_fn(|index| {
-            let rows = lines.iter().filter_map(|(_, cells)| cells[index]);
-            rows.min_by(|a, b| a.cost().unwrap_or(f64::INFINITY).total_cmp(&b.cost().unwrap_or(f64::INFINITY)))
-        });
-        let mut rows = vec![vec!["method".to_string()]];
-        rows[0].extend(TARGETS_M.map(|target| format!("within {target:.0e} m")));
-        for (method, cells) in lines {
-            let mut row = vec![method];
-            row.extend(cells.iter().zip(best).map(|(cell, best)| {
-                let (Some(cell), Some(best)) = (cell, best) else {
-                    return "-".to_string();
-                };
-                let text = choice_text(cell);
-                if bold && is_as_fast(cell, best) { format!("**{text}**") } else { text }
-            }));
-            rows.push(row);
-        }
-        Table(rows)
     }
 
     /// All settings.
@@ -167,8 +115,8 @@ impl CaseReport {
                 setting.stabilisation.unwrap_or("").into(),
             ];
             match &row.outcome {
-                super::Outcome::Done(figures) => cells.extend(figure_cells(figures)),
-                super::Outcome::Failed { reason } => {
+                Outcome::Done(figures) => cells.extend(figure_cells(figures)),
+                Outcome::Failed { reason } => {
                     cells.push(format!("failed: {reason}"));
                     cells.resize(heading.len(), String::new());
                 }
@@ -223,23 +171,6 @@ fn figure_cells(figures: &Figures) -> Vec<String> {
     cells
 }
 
-/// `210 µs, 312 (rtol 1e-6)`
-fn choice_text(row: &Row) -> String {
-    let Some(figures) = row.figures() else {
-        return String::new();
-    };
-    let time = figures.time.as_ref().map_or(String::new(), |time| duration(time.timing.median_ns) + ", ");
-    format!("{time}{} ({})", figures.rhs_evals, row.step())
-}
-
-fn is_as_fast(row: &Row, best: &Row) -> bool {
-    let ratio = |row: &Row| row.figures().and_then(|figures| figures.time.as_ref()).map(|time| time.ratio);
-    match (ratio(row), ratio(best)) {
-        (Some(row), Some(best)) => row.low <= best.high,
-        _ => std::ptr::eq(row, best),
-    }
-}
-
 /// Columns with a heading alone say nothing.
 fn drop_empty_columns(rows: &mut [Vec<String>]) {
     let columns = rows.first().map_or(0, Vec::len);
@@ -263,7 +194,7 @@ impl SolverReport {
     pub fn markdown(&self) -> String {
         let cases: Vec<String> = self.cases.iter().map(CaseReport::markdown).collect();
         format!(
-            "# Solvers: what an error costs\n\n{READING}\n\n![Error against evaluations](solvers.svg)\n\n{}\n{LEGEND}\n\n{}.\n",
+            "# Solvers: what an error costs\n\n{READING} {BOLD}\n\n![Error against evaluations](solvers.svg)\n\n{}\n{LEGEND}\n\n{}.\n",
             cases.join("\n"),
             self.provenance.text().replace('\n', "; "),
         )
