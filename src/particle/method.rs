@@ -128,3 +128,21 @@ pub struct Solver {
     /// XPBD only: substeps a step. None: as many as hold the violation at rest.
     pub substeps: Option<usize>,
 }
+
+/// What projection is asked for unless one says otherwise: what it reaches in f64 from anywhere near, with digits to spare.
+const VIOLATION: f64 = 1e-12;
+
+impl Solver {
+    /// Fixed steps, s, and else what suits most: a sparse factorisation, projection.
+    #[must_use]
+    pub fn fixed(method: Method, dt_s: f64) -> Self {
+        let (linear, stabilisation) = (LinearSolver::Direct, Stabilisation::Projection);
+        Self { method, steps: Steps::Fixed { dt_s }, linear, stabilisation, violation: VIOLATION, substeps: None }
+    }
+
+    /// Steps by a tolerance, and else the same.
+    #[must_use]
+    pub fn adaptive(method: Method, tolerance: Tolerance<f64>) -> Self {
+        Self { steps: Steps::Adaptive { tolerance }, ..Self::fixed(method, 1.0) }
+    }
+}

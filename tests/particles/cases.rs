@@ -3,9 +3,7 @@
 use ga_physics::algebra::cga::Point;
 use ga_physics::algebra::g3::Vector;
 use ga_physics::ode::Tolerance;
-use ga_physics::particle::{
-    Constraint, Force, LinearSolver, Masses, Method, Motion, Particles, Setup, Solver, Stabilisation, Steps,
-};
+use ga_physics::particle::{Constraint, Force, Masses, Method, Motion, Particles, Setup, Solver};
 
 pub(crate) const GRAVITY: f64 = 9.81;
 
@@ -55,19 +53,11 @@ pub(crate) fn net(side: usize, fold_rad: f64) -> Case {
 }
 
 pub(crate) fn fixed(method: Method, dt_s: f64) -> Solver {
-    Solver {
-        method,
-        steps: Steps::Fixed { dt_s },
-        linear: LinearSolver::Direct,
-        stabilisation: Stabilisation::Projection,
-        violation: 1e-13,
-        substeps: None,
-    }
+    Solver { violation: 1e-13, ..Solver::fixed(method, dt_s) }
 }
 
 pub(crate) fn adaptive(method: Method, tolerance: f64) -> Solver {
-    let steps = Steps::Adaptive { tolerance: Tolerance { rtol: tolerance, atol: tolerance } };
-    Solver { steps, ..fixed(method, 1.0) }
+    Solver { violation: 1e-13, ..Solver::adaptive(method, Tolerance { rtol: tolerance, atol: tolerance }) }
 }
 
 pub(crate) fn start((state, setup): Case, solver: &Solver) -> Motion<f64> {
