@@ -99,12 +99,14 @@ impl<M: Embedded, T: Real, S: Controlled<T>> Adaptive<M, S, T> {
         if left <= 0.0 {
             return Err(OdeError::Stopped { stop_s: self.stop_s });
         }
+        // At time 0 every step is resolved, but the shortest there are cannot become shorter.
+        let mut failed_s = f64::INFINITY;
         loop {
             let last = left <= LAST_STEP * wanted;
             let to_s = if last { self.stop_s } else { from_s + wanted };
             // What the time really moves by.
             let h_s = to_s - from_s;
-            if !(h_s > 0.0) || !last && (h_s - wanted).abs() > RESOLVED * wanted {
+            if !(h_s > 0.0 && h_s < failed_s) || !last && (h_s - wanted).abs() > RESOLVED * wanted {
                 return Err(OdeError::StepTooSmall { time_s: from_s, step_s: wanted });
             }
             self.segment.attempt(h_s, M::ERROR_AT_END, system).map_err(OdeError::System)?;
@@ -120,6 +122,7 @@ impl<M: Embedded, T: Real, S: Controlled<T>> Adaptive<M, S, T> {
                 return Ok(to_s);
             }
             self.segment.work.rejected += 1;
+            failed_s = h_s;
             wanted = self.controller.rejected(ratio, h_s);
         }
     }
