@@ -28,7 +28,7 @@ fn main() -> ExitCode {
         [] => Effort { small: 21, net: 7 },
         ["--quick"] => Effort { small: 3, net: 1 },
         _ => {
-            eprintln!("usage: cargo run --release --bin mechanics [-- --quick]");
+            eprintln!("usage: cargo run --release -p mechanics [-- --quick]");
             return ExitCode::from(2);
         }
     };
@@ -71,7 +71,7 @@ fn run(out: &mut impl Write, effort: &Effort) -> io::Result<()> {
     run(cases::folded_net(1).lasting(120, "folded net 32 x 32, 0.5 s"), effort.net, with_rattle)?;
     run(cases::folded_net(2), effort.net, nets())?;
     run(cases::large_net(Pins::FirstRow), 1, nets())?;
-    run(cases::large_net(Pins::Corners), 1, nets())?;
+    run(cases::large_net(Pins::Corners), 1, vec![ga_ways::sweeps()])?;
     let sizes = cases::growing_nets();
     report::scaling(out, &sizes, &[ga_ways::sweeps_20(), ga_ways::sweeps()], effort.net)
 }
