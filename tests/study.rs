@@ -46,7 +46,7 @@ fn errors_on_an_orbit_fall_with_the_order_of_the_method() {
 
 #[test]
 fn errors_on_a_pendulum_fall_and_its_length_is_held() {
-    let report = examine(&pendulum(), &scope(11)).unwrap();
+    let report = examine(&pendulum(), &scope(10)).unwrap();
     for (method, order) in [("verlet", 2.0), ("yoshida4", 4.0), ("rk4", 4.0)] {
         let observed = observed_order(&rows(&report, method, Some("direct")));
         assert!(observed > order - 0.5, "{method}: {observed}");
