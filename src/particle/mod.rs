@@ -7,6 +7,7 @@
 //! [`Particles`] is the state, [`Force`] what acts, [`Constraint`] what is held. Only the forces that are named are
 //! evaluated.
 
+mod check;
 mod constraint;
 mod energy;
 mod fast;
@@ -19,6 +20,7 @@ mod state;
 mod system;
 pub mod xpbd;
 
+pub use check::SetupError;
 pub use constraint::Constraint;
 pub use energy::{Totals, totals};
 pub use force::{Force, Masses};

@@ -1,7 +1,8 @@
 //! Particles in motion: a system with the stepper that was chosen for it.
 
+use super::check::check;
 use super::xpbd::XpbdError;
-use super::{LinearSolver, Method, MotionError, Particles, Rates, Setup, Solver, Steps, System, Totals};
+use super::{LinearSolver, Method, MotionError, Particles, Rates, Setup, SetupError, Solver, Steps, System, Totals};
 use crate::algebra::Real;
 use crate::algebra::g3::Vector;
 use crate::ode::{
@@ -13,9 +14,12 @@ use alloc::vec;
 use alloc::vec::Vec;
 use thiserror::Error;
 
-/// Why a solver cannot be used.
+/// Why particles cannot be set in motion.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum SolverError {
+    /// The particles, forces or constraints.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
     /// The step.
     #[error(transparent)]
     Step(#[from] StepError),
@@ -47,7 +51,7 @@ impl<T: Real> Motion<T> {
     /// Starts at time 0.
     ///
     /// # Errors
-    /// A solver that cannot be used.
+    /// Particles, forces or constraints that are not sound, a solver that cannot be used.
     pub fn new(setup: Setup<T>, start: Particles<T>, solver: &Solver) -> Result<Self, SolverError> {
         Self::with_max_step(setup, start, solver, None)
     }
@@ -55,7 +59,7 @@ impl<T: Real> Motion<T> {
     /// Starts at time 0; a method that chooses its steps makes none longer than this, s.
     ///
     /// # Errors
-    /// A solver that cannot be used.
+    /// As [`Motion::new`].
     pub fn with_max_step(
         setup: Setup<T>,
         start: Particles<T>,
@@ -65,6 +69,7 @@ impl<T: Real> Motion<T> {
         if solver.linear == LinearSolver::Sweeps && solver.method != Method::Xpbd {
             return Err(SolverError::NeedsMultipliers(solver.method));
         }
+        check(&setup, &start)?;
         let system = System::new(setup, &start, solver)?;
         let stepper = stepper(&start, solver, max_step_s)?;
         Ok(Self { system, stepper, state: start, time_s: 0.0 })

@@ -75,7 +75,7 @@ impl<T: Real> System<T> {
     /// The system of a setup, solved as said.
     ///
     /// # Errors
-    /// Constraints that sweeps cannot be made over.
+    /// Particles, forces or constraints that are not sound.
     pub fn new(setup: Setup<T>, start: &Particles<T>, solver: &Solver) -> Result<Self, XpbdError> {
         let fast = (solver.method == Method::Xpbd).then(|| Fast::new(&setup, start, solver)).transpose()?;
         Ok(Self {

@@ -3,7 +3,9 @@
 use crate::cases::{adaptive, chain, fixed, masses, particles, start, weight};
 use ga_physics::constraint::ProjectionError;
 use ga_physics::ode::{OdeError, StepError, ToleranceError};
-use ga_physics::particle::{Constraint, Force, LinearSolver, Method, Motion, MotionError, Setup, Solver, SolverError};
+use ga_physics::particle::{
+    Constraint, Force, LinearSolver, Method, Motion, MotionError, Setup, SetupError, Solver, SolverError,
+};
 
 #[test]
 fn a_solver_that_cannot_be_used_is_refused() {
@@ -65,4 +67,30 @@ fn steps_that_overflow_are_told() {
     let mut motion = start((state, setup), &fixed(Method::Rk4, 0.1));
     let error = motion.advance_to(100.0).unwrap_err();
     assert!(matches!(error, OdeError::NotFinite { .. }), "{error}");
+}
+
+#[test]
+fn a_setup_that_is_not_sound_is_refused() {
+    let refused = |spoil: &dyn Fn(&mut Setup<f64>, &mut ga_physics::particle::Particles<f64>)| {
+        let (mut state, mut setup) = chain(2, 0.5);
+        spoil(&mut setup, &mut state);
+        match Motion::new(setup, state, &fixed(Method::Rk4, 0.1)).err() {
+            Some(SolverError::Setup(error)) => error,
+            other => panic!("{other:?}"),
+        }
+    };
+    assert!(matches!(refused(&|setup, _| setup.masses.mass.truncate(1)), SetupError::Sizes { masses: 1, .. }));
+    assert!(matches!(refused(&|setup, _| setup.masses.inv_mass[1] = -1.0), SetupError::Mass { particle: 1, .. }));
+    assert!(matches!(refused(&|_, state| state.position[2].y = f64::NAN), SetupError::NotFinite { particle: 2 }));
+    let drag = |setup: &mut Setup<f64>, _: &mut _| setup.forces.push(Force::LinearDrag { particle: Some(7), k: 1.0 });
+    let expected = SetupError::NoSuchParticleOfForce { force: 1, particle: 7, particles: 3 };
+    assert_eq!(refused(&drag), expected);
+    let link = |a, b, length| {
+        move |setup: &mut Setup<f64>, _: &mut _| {
+            setup.constraints[1] = Constraint::Distance { a, b, length };
+        }
+    };
+    assert_eq!(refused(&link(0, 3, 1.0)), SetupError::NoSuchParticle { constraint: 1, particle: 3, particles: 3 });
+    assert_eq!(refused(&link(1, 1, 1.0)), SetupError::Distance { constraint: 1, length_m: 1.0 });
+    assert_eq!(refused(&link(1, 2, 0.0)), SetupError::Distance { constraint: 1, length_m: 0.0 });
 }
