@@ -37,7 +37,7 @@ const MAX_REFINEMENTS: u32 = 3;
 /// rounding there, contradicting ones leave their difference.
 const CONTRADICTION: f64 = 1.5e-8; // sqrt(f64::EPSILON)
 
-/// The direct solver of a fixed pattern of rows. See the [module](self).
+/// The direct solver of a fixed pattern of rows.
 #[derive(Clone, Debug)]
 pub struct Direct<const D: usize> {
     normal: Normal<D>,

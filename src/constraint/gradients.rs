@@ -40,7 +40,7 @@ impl Stop {
 /// A residual that the recurrence calls small but is not is started from anew; each time gains the digits that were lost.
 const MAX_RESTARTS: u32 = 4;
 
-/// Conjugate gradients for a fixed pattern of rows. See the [module](self).
+/// Conjugate gradients for a fixed pattern of rows.
 #[derive(Clone, Debug)]
 pub struct ConjugateGradients<const D: usize> {
     /// When to stop.

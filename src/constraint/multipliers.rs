@@ -27,7 +27,7 @@ pub(super) enum Solver<const D: usize> {
     ConjugateGradients(Box<ConjugateGradients<D>>),
 }
 
-/// The multipliers of constraints at frozen gradients. See the [module](self).
+/// The multipliers of constraints at frozen gradients.
 #[derive(Clone, Debug)]
 pub struct Multipliers<const D: usize> {
     pub(super) solver: Solver<D>,

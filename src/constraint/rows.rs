@@ -35,7 +35,7 @@ impl<const D: usize> InverseMass<D> for [f64] {
     }
 }
 
-/// Values, gradients and curvatures of constraints. See the [module](self).
+/// Values, gradients and curvatures of constraints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rows<const D: usize> {
     value: Vec<f64>,

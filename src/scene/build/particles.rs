@@ -46,7 +46,7 @@ impl<T: Real> ParticleSetup<T> {
 /// What is drawn besides the particles themselves.
 #[derive(Clone, Debug, Default)]
 pub struct ParticleLook {
-    /// Names of [[particle]], [[chain]] and [[net]], with their particles.
+    /// Names of `[[particle]]`, `[[chain]]` and `[[net]]`, with their particles.
     pub groups: Vec<(String, Range<usize>)>,
     /// Pairs of particles that keep their distance.
     pub links: Vec<[usize; 2]>,
