@@ -65,7 +65,7 @@ impl<M: Embedded, T: Real, S: State<T> + Clone> Adaptive<M, S, T> {
         Ok(self)
     }
 
-    /// With at most so many steps, tried or taken, between two outputs.
+    /// With at most so many steps taken between two outputs; trials that failed do not count.
     #[must_use]
     pub fn with_max_steps(mut self, steps: u64) -> Self {
         self.max_steps = steps;

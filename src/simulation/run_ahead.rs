@@ -3,6 +3,29 @@
 //! A display wants a frame at a fixed rate; a simulation with error control needs now less, now more time for one. The
 //! buffer takes the difference: the simulation runs in a thread of its own and stops when the buffer is full. How full it
 //! is may decide how accurately the next frame is computed: the producer is told.
+//!
+//! ```
+//! use ga_physics::algebra::{cga::Point, g3::Vector};
+//! use ga_physics::particle::{Force, Masses, Method, Motion, Particles, Setup, Solver};
+//! use ga_physics::simulation::RunAhead;
+//! use std::num::NonZeroUsize;
+//!
+//! let setup = Setup {
+//!     masses: Masses { mass: vec![1.0], inv_mass: vec![1.0] },
+//!     forces: vec![Force::Uniform { acceleration: Vector::new(0.0, 0.0, -10.0) }],
+//!     constraints: vec![],
+//! };
+//! let start = Particles { position: vec![Point::origin()], velocity: vec![Vector::default()] };
+//! let mut motion = Motion::new(setup, start, &Solver::fixed(Method::Rk4, 0.01))?;
+//! let mut times = (1..=60).map(|frame| f64::from(frame) / 60.0);
+//! let frames = RunAhead::start(NonZeroUsize::MIN.saturating_add(7), move |_waiting| {
+//!     motion.advance_to(times.next()?).ok()?;
+//!     Some(motion.state().position[0].z)
+//! });
+//! let shown: Vec<f64> = frames.collect();
+//! assert!(shown.len() == 60 && (shown[59] + 5.0).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use std::collections::VecDeque;
 use std::num::NonZeroUsize;
