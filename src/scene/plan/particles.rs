@@ -81,8 +81,14 @@ impl Plan {
         if census.springs > 0 {
             self.model("springs", census.springs.to_string());
         }
-        let how = format!("{} forces that depend on the velocity", census.drags);
+        let how = format!("{} that depend on the velocity", census.drags);
         self.choose(census.drags > 0, "drag on particles", &how, "no [[force]] names particles for it");
+        if census.drags > 0 && solver.method.of_particles().splits() {
+            self.leave_out(
+                "full order in drag",
+                &format!("`{name}` is of order 1 in forces that depend on the velocity"),
+            );
+        }
         if !scene.body.is_empty() {
             self.leave_out("bodies and particles", "they do not act on each other yet");
         }
