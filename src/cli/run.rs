@@ -14,7 +14,7 @@ use crate::rigid::rotor::MAX_TURN_RAD;
 use crate::scene::build::{Built, build};
 use crate::scene::description::{Constraint, Force, Method, Scalar};
 use crate::scene::plan::{self, SolverPlan};
-use crate::scene::{Rejected, Scene, SceneSource, load};
+use crate::scene::{MAX_STEPS, Rejected, Scene, SceneSource, load};
 use crate::simulation::{Event, EventKind, Record, SimulationError, World, state_hash};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::path::{Path, PathBuf};
@@ -58,9 +58,11 @@ fn run_in<T: Real>(options: &Options, scene: &Scene, source: SceneSource) -> Res
     let mut world = World::new(setup);
     if let Some(particles) = particles {
         let solver = SolverPlan::of(scene).of_particles(plan::interval_s(scene));
-        let motion = particles
+        let mut motion = particles
             .motion(&solver, scene.dt_s.as_ref().map(|dt| *dt.get_ref()))
             .map_err(|reason| Failure::input(reason.to_string()))?;
+        bearable(&motion, plan::steps(scene))?;
+        motion.stop_at(*scene.duration_s.get_ref());
         world = world.with_particles(motion);
     }
     let bar = progress(options.quiet, plan::steps(scene));
@@ -79,6 +81,19 @@ fn run_in<T: Real>(options: &Options, scene: &Scene, source: SceneSource) -> Res
         Some(reason) => Err(Failure::run(format!("{reason}\nwhat was recorded until then is in {}", out.display()))),
         None => Ok(()),
     }
+}
+
+/// Substeps count as steps.
+fn bearable<T: Real>(motion: &Motion<T>, steps: u64) -> Result<(), Failure> {
+    #[expect(clippy::cast_precision_loss, reason = "a limit")]
+    let all = motion.substeps().map_or(0.0, |substeps| substeps as f64 * steps as f64);
+    if all <= MAX_STEPS {
+        return Ok(());
+    }
+    Err(Failure::input(format!(
+        "sweeps would take {all:.1e} substeps, more than {MAX_STEPS:.0e}: allow a larger `solver.violation`, give \
+         `solver.substeps`, or set `solver.constraints = \"direct\"`"
+    )))
 }
 
 /// The name of a scene: its file's, without the extension.
@@ -186,6 +201,8 @@ fn particle_work<T: Real>(motion: &Motion<T>) -> ParticleWork {
     ParticleWork {
         constraints: motion.system().setup().constraints.len(),
         redundant_constraints: motion.system().redundant(),
+        asked_violation_m: motion.system().asked_violation_m(),
+        substeps: motion.substeps(),
         rhs_evals: work.rhs_evals,
         accepted_steps: work.accepted,
         rejected_steps: work.rejected,
@@ -283,12 +300,21 @@ fn table(summary: &Summary, out: &Path) -> String {
         Some(("momentum drift", drift(summary.momentum_drift_rel))),
         Some(("ang. mom. drift", drift(summary.angular_momentum_drift_rel))),
         with_bodies.then(|| ("max penetration", metres(summary.max_penetration_m))),
-        summary.max_violation_m.map(|violation| ("max violation", metres(violation))),
+        summary.max_violation_m.map(|violation| ("max violation", held(violation, summary))),
         Some(("state hash", summary.state_hash.clone())),
     ];
     let mut text: String = rows.iter().flatten().map(|(name, value)| format!("{name:<16} {value}\n")).collect();
     text += &format!("open             {}\n", out.join("run.html").display());
     text
+}
+
+/// The worst violation, and what was asked for where it is more.
+fn held(violation_m: f64, summary: &Summary) -> String {
+    // The violation is judged by another formula than the solver's, which rounds otherwise.
+    let asked_m = summary.particle_work.as_ref().map_or(f64::INFINITY, |work| work.asked_violation_m);
+    let more =
+        if violation_m > 1.1 * asked_m { format!(", more than the {asked_m:.1e} m asked for") } else { String::new() };
+    format!("{violation_m:.1e} m{more}")
 }
 
 /// How many steps were made: of bodies, and of particles.

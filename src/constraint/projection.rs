@@ -195,6 +195,9 @@ impl<const D: usize> Multipliers<D> {
                 None => stale = true,
             }
         }
+        if violation_m <= tolerance_m {
+            return Ok(Projected { evaluations, factorisations, violation_m });
+        }
         Err(ProjectionError::NotConverged { row, violation_m, evaluations })
     }
 

@@ -48,12 +48,16 @@ pub struct Summary {
 }
 
 /// What the solution of the particles' motion took.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ParticleWork {
     /// Constraints; a line or circle is two.
     pub constraints: usize,
-    /// Those of them that the others imply.
+    /// Those of them that the others imply, as far as a factorisation found out.
     pub redundant_constraints: usize,
+    /// The violation that was asked for, m.
+    pub asked_violation_m: f64,
+    /// Substeps a step of XPBD; null for other methods.
+    pub substeps: Option<usize>,
     /// Evaluations of the forces.
     pub rhs_evals: u64,
     /// Steps.

@@ -107,6 +107,10 @@ impl Held {
         self.redundant
     }
 
+    pub(super) fn violation_m(&self) -> f64 {
+        self.violation_m
+    }
+
     /// Evaluates the rows and factors `J W Jᵀ` at these positions, unless they were there last.
     fn freeze(&mut self, constraints: &[Constraint], position: &[Point<f64>]) -> Result<(), SolveError> {
         let Some(multipliers) = &mut self.multipliers else {

@@ -4,6 +4,7 @@ use super::check::check;
 use super::xpbd::XpbdError;
 use super::{LinearSolver, Method, MotionError, Particles, Rates, Setup, SetupError, Solver, Steps, System, Totals};
 use crate::algebra::Real;
+use crate::algebra::cga::Point;
 use crate::algebra::g3::Vector;
 use crate::ode::{
     Adaptive, CashKarp, Composition, Dop853, Euler, Fixed, Leaps, OdeError, Rk4, Rk4Doubling, StepError, Stepper,
@@ -80,13 +81,28 @@ impl<T: Real> Motion<T> {
     /// # Errors
     /// A step that cannot be made. State and time are then those of the last good step.
     pub fn advance_to(&mut self, time_s: f64) -> Result<(), OdeError<MotionError>> {
+        let from_s = self.time_s;
         let done = self.stepper.advance_to(&mut self.system, time_s, &mut self.state);
         self.time_s = time_s;
+        if done.is_ok() && !is_finite(&self.state) {
+            return Err(OdeError::NotFinite { time_s, step_s: time_s - from_s });
+        }
         if done.is_err() && self.stepper.time_s() < time_s {
             self.time_s = self.stepper.time_s();
             self.state.clone_from(self.stepper.state());
         }
         done
+    }
+
+    /// No step goes past this time, s: the end of a run.
+    pub fn stop_at(&mut self, time_s: f64) {
+        self.stepper.stop_at(time_s);
+    }
+
+    /// Substeps a step of XPBD; none for other methods.
+    #[must_use]
+    pub fn substeps(&self) -> Option<usize> {
+        self.system.substeps()
     }
 
     /// The time, s.
@@ -123,6 +139,12 @@ impl<T: Real> Motion<T> {
     pub fn work(&self) -> Work {
         self.stepper.work()
     }
+}
+
+/// Whether positions and kinetic energies are numbers. Methods without an error estimate do not notice by themselves.
+fn is_finite<T: Real>(state: &Particles<T>) -> bool {
+    let position = |x: &Point<f64>| x.position().norm_sq().is_finite();
+    state.position.iter().all(position) && state.velocity.iter().all(|v| v.norm_sq().is_finite())
 }
 
 fn stepper<T: Real>(start: &Particles<T>, solver: &Solver, max_step_s: Option<f64>) -> Result<Step<T>, SolverError> {

@@ -102,6 +102,18 @@ impl<T: Real> System<T> {
         self.held.redundant()
     }
 
+    /// Substeps a step of XPBD; none for other methods.
+    #[must_use]
+    pub fn substeps(&self) -> Option<usize> {
+        self.fast.as_ref().map(|fast| fast.substeps)
+    }
+
+    /// The violation that was asked for, m.
+    #[must_use]
+    pub fn asked_violation_m(&self) -> f64 {
+        self.held.violation_m()
+    }
+
     /// Steps of Verlet's method, and of compositions of it, in which links turned too far for RATTLE: they went on along the
     /// links' later directions, which loses energy, but holds.
     #[must_use]

@@ -101,10 +101,10 @@ impl Record {
     /// Takes note of a state with these sums: for the drifts always, as a frame if asked.
     fn note(&mut self, time_s: f64, totals: Totals, keep_frame: bool, frame: impl FnOnce() -> Frame) {
         let start = *self.start.get_or_insert(totals);
-        self.energy_error = self.energy_error.max((totals.energy() - start.energy()).abs());
-        self.momentum_error = self.momentum_error.max((totals.momentum - start.momentum).norm_sq().sqrt());
+        self.energy_error = larger(self.energy_error, (totals.energy() - start.energy()).abs());
+        self.momentum_error = larger(self.momentum_error, (totals.momentum - start.momentum).norm_sq().sqrt());
         let turned = totals.angular_momentum - start.angular_momentum;
-        self.angular_momentum_error = self.angular_momentum_error.max(turned.norm_sq().sqrt());
+        self.angular_momentum_error = larger(self.angular_momentum_error, turned.norm_sq().sqrt());
         self.kinetic_scale = self.kinetic_scale.max(totals.kinetic);
         self.momentum_scale = self.momentum_scale.max(totals.momentum_scale);
         self.angular_momentum_scale = self.angular_momentum_scale.max(totals.angular_momentum_scale);
@@ -142,6 +142,11 @@ impl Record {
     pub fn max_penetration(&self) -> f64 {
         self.events.iter().map(|event| -event.separation).fold(0.0, f64::max)
     }
+}
+
+/// The larger error; infinite for one that is no number, which a maximum would forget.
+fn larger(known: f64, error: f64) -> f64 {
+    if error.is_nan() { f64::INFINITY } else { known.max(error) }
 }
 
 fn frame<T: Real>(world: &World<T>) -> Frame {

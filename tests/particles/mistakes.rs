@@ -94,3 +94,26 @@ fn a_setup_that_is_not_sound_is_refused() {
     assert_eq!(refused(&link(1, 1, 1.0)), SetupError::Distance { constraint: 1, length_m: 1.0 });
     assert_eq!(refused(&link(1, 2, 0.0)), SetupError::Distance { constraint: 1, length_m: 0.0 });
 }
+
+/// Methods that do not estimate their error do not see it grow.
+#[test]
+fn what_runs_away_is_told_by_every_method() {
+    let all = [Method::Euler, Method::Rk4, Method::Verlet, Method::Yoshida4, Method::Yoshida6, Method::Xpbd];
+    for method in all {
+        let spring = Force::Spring { a: 0, b: 1, stiffness: 1e6, damping: 0.0, rest_length: 0.9 };
+        let setup = Setup { masses: masses(vec![1.0, 1.0], &[0]), forces: vec![spring], constraints: vec![] };
+        let state = particles(&[[0.0; 3], [0.0, 0.0, 1.0]]);
+        let mut motion = start((state, setup), &fixed(method, 0.01));
+        let failed = (1..=1000).find_map(|step| motion.advance_to(0.01 * f64::from(step)).err());
+        assert!(matches!(failed, Some(OdeError::NotFinite { .. })), "{method:?}: {failed:?}");
+    }
+}
+
+/// A run that ends within a step does not pay for what would come after.
+#[test]
+fn the_last_step_ends_with_the_run() {
+    let mut motion = start(chain(1, 0.5), &fixed(Method::Tsit5, 0.2));
+    motion.stop_at(0.3);
+    motion.advance_to(0.3).unwrap();
+    assert_eq!((motion.time_s(), motion.work().accepted), (0.3, 2));
+}

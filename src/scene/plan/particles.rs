@@ -55,6 +55,7 @@ impl Plan {
         let how = format!("rtol {:e}, atol {:e} m and m/s, the largest of all errors", solver.rtol, solver.atol);
         self.choose(solver.adaptive, "step control", &how, &format!("`{name}` makes steps of `dt_s`"));
         let stabilised = match solver.stabilisation {
+            _ if solver.method.of_particles().splits() => "held in each step by RATTLE",
             Stabilisation::Projection => "projected after each step",
             Stabilisation::Baumgarte => "damped by Baumgarte's terms",
             Stabilisation::None => "not stabilised",

@@ -16,7 +16,7 @@ const HIGH_ORDER_BELOW: f64 = 1e-6;
 /// From so many constraints on, a step that solves for all forces at once takes longer than a frame of a display, and
 /// the plan takes sweeps.
 const SWEEPS_FROM: usize = 20_000;
-/// Up to so many constraints the plan takes a method of high order. More are nets: where those snap taut no high order
+/// Up to so many constraints the plan takes a method of high order, but not for nets: where those snap taut no high order
 /// helps, and RATTLE goes on.
 const HIGH_ORDER_UP_TO: usize = 64;
 /// Up to so many constraints a sparse factorisation takes less than a second and less than a hundred megabytes.
@@ -109,7 +109,7 @@ pub(super) fn choose(scene: &Scene, census: &Census) -> SolverPlan {
     };
     let constraints = scene.solver.constraints.as_ref().map(|by| *by.get_ref()).unwrap_or(match () {
         () if method == Method::Xpbd => ConstraintSolver::Sweeps,
-        () if census.constraints <= DIRECT_UP_TO => ConstraintSolver::Direct,
+        () if scene.net.is_empty() || census.constraints <= DIRECT_UP_TO => ConstraintSolver::Direct,
         () => ConstraintSolver::ConjugateGradients,
     });
     let least = if single { VIOLATION_F32 } else { VIOLATION };
@@ -135,10 +135,12 @@ fn method(scene: &Scene, census: &Census, rtol: f64) -> (Method, String) {
             false => (Method::Tsit5, "steps by error, and a tolerance at which a low order pays".to_owned()),
         };
     }
-    if n >= SWEEPS_FROM {
+    // Chains and trees are factored in the time of a sweep, however long they are.
+    let net = !scene.net.is_empty();
+    if net && n >= SWEEPS_FROM {
         return (Method::Xpbd, format!("{n} constraints: fast rather than accurate"));
     }
-    if n > HIGH_ORDER_UP_TO {
+    if net || n > HIGH_ORDER_UP_TO {
         return (Method::Verlet, format!("steps of `dt_s` and {n} constraints: RATTLE bears it when they snap taut"));
     }
     if n > 0 || census.drags > 0 {
