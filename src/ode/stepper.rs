@@ -57,12 +57,11 @@ pub trait Stepper<Y: ?Sized>: Run {
     /// A time outside of the last step; those of the system.
     fn interpolate(&mut self, system: &mut Y, t_s: f64, out: &mut Self::State) -> Result<(), OdeError<Self::Error>>;
 
-    /// Steps until the time is reached, and writes the state there. The last step may end later; it is not wasted, but
-    /// gone on from.
+    /// Steps until the time is reached or passed.
     ///
     /// # Errors
-    /// A step that cannot be made, too many of them, a time before the last step.
-    fn advance_to(&mut self, system: &mut Y, t_s: f64, out: &mut Self::State) -> Result<(), OdeError<Self::Error>> {
+    /// A step that cannot be made, too many of them.
+    fn pass(&mut self, system: &mut Y, t_s: f64) -> Result<(), OdeError<Self::Error>> {
         let (start_s, mut steps) = (self.time_s(), 0);
         while self.time_s() < t_s {
             if steps == self.max_steps() {
@@ -71,6 +70,16 @@ pub trait Stepper<Y: ?Sized>: Run {
             self.step(system)?;
             steps += 1;
         }
+        Ok(())
+    }
+
+    /// Steps until the time is reached, and writes the state there. The last step may end later; it is not wasted, but
+    /// gone on from.
+    ///
+    /// # Errors
+    /// A step that cannot be made, too many of them, a time before the last step.
+    fn advance_to(&mut self, system: &mut Y, t_s: f64, out: &mut Self::State) -> Result<(), OdeError<Self::Error>> {
+        self.pass(system, t_s)?;
         self.interpolate(system, t_s, out)
     }
 

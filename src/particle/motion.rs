@@ -44,8 +44,10 @@ type Step<T> = Box<dyn Stepper<System<T>, State = Particles<T>, Error = MotionEr
 pub struct Motion<T: Real> {
     system: System<T>,
     stepper: Step<T>,
-    state: Particles<T>,
     time_s: f64,
+    /// The state at the time, if that is within a step.
+    interpolated: Particles<T>,
+    between: bool,
 }
 
 impl<T: Real> Motion<T> {
@@ -73,7 +75,7 @@ impl<T: Real> Motion<T> {
         check(&setup, &start)?;
         let system = System::new(setup, &start, solver)?;
         let stepper = stepper(&start, solver, max_step_s)?;
-        Ok(Self { system, stepper, state: start, time_s: 0.0 })
+        Ok(Self { system, stepper, time_s: 0.0, interpolated: start, between: false })
     }
 
     /// Advances to a time; the state is then that of this time, whatever steps were taken.
@@ -82,16 +84,23 @@ impl<T: Real> Motion<T> {
     /// A step that cannot be made. State and time are then those of the last good step.
     pub fn advance_to(&mut self, time_s: f64) -> Result<(), OdeError<MotionError>> {
         let from_s = self.time_s;
-        let done = self.stepper.advance_to(&mut self.system, time_s, &mut self.state);
-        self.time_s = time_s;
-        if done.is_ok() && !is_finite(&self.state) {
-            return Err(OdeError::NotFinite { time_s, step_s: time_s - from_s });
+        let done = self.reach(time_s);
+        (self.time_s, self.between) = match done {
+            Ok(between) => (time_s, between),
+            Err(_) => (self.stepper.time_s(), false),
+        };
+        done?;
+        if is_finite(self.state()) { Ok(()) } else { Err(OdeError::NotFinite { time_s, step_s: time_s - from_s }) }
+    }
+
+    /// Steps to a time or past it; whether past it, and the state there had to be interpolated.
+    fn reach(&mut self, time_s: f64) -> Result<bool, OdeError<MotionError>> {
+        self.stepper.pass(&mut self.system, time_s)?;
+        let between = self.stepper.time_s() != time_s;
+        if between {
+            self.stepper.interpolate(&mut self.system, time_s, &mut self.interpolated)?;
         }
-        if done.is_err() && self.stepper.time_s() < time_s {
-            self.time_s = self.stepper.time_s();
-            self.state.clone_from(self.stepper.state());
-        }
-        done
+        Ok(between)
     }
 
     /// No step goes past this time, s: the end of a run.
@@ -114,7 +123,7 @@ impl<T: Real> Motion<T> {
     /// The state.
     #[must_use]
     pub fn state(&self) -> &Particles<T> {
-        &self.state
+        if self.between { &self.interpolated } else { self.stepper.state() }
     }
 
     /// Masses, forces, constraints.
@@ -125,13 +134,14 @@ impl<T: Real> Motion<T> {
 
     /// The worst violation of a constraint, m, and which; none without constraints.
     pub fn worst_violation(&mut self) -> Option<(usize, f64)> {
-        self.system.worst_violation(&self.state)
+        let state = if self.between { &self.interpolated } else { self.stepper.state() };
+        self.system.worst_violation(state)
     }
 
     /// Energy and momenta.
     #[must_use]
     pub fn totals(&self) -> Totals {
-        self.system.totals(&self.state)
+        self.system.totals(self.state())
     }
 
     /// What it has cost.
