@@ -206,7 +206,7 @@ impl<T: Real> World<T> {
             return self.advance_bodies_to(end_s, events);
         };
         let moved = particles.advance_to(end_s);
-        let reached_s = particles.time_s().clamp(self.time_s, end_s);
+        let reached_s = particles.time_s().min(end_s).max(self.time_s);
         if reached_s > self.time_s {
             self.advance_bodies_to(reached_s, events)?;
         }
