@@ -41,16 +41,16 @@ pub(super) fn net(roster: &mut Roster, net: &Net) {
     };
     let begin = roster.len();
     let name = net.name.get_ref();
-    for c in 0..columns {
-        for r in 0..rows {
+    for r in 0..rows {
+        for c in 0..columns {
             let fixed = is_fixed(net, c, r);
             roster.push(format!("{name}.{c}.{r}"), place(c, r).into(), *net.mass_kg.get_ref(), fixed);
             let index = roster.len() - 1;
-            if r > 0 {
+            if c > 0 {
                 roster.links.push([index - 1, index]);
             }
-            if c > 0 {
-                roster.links.push([index - rows as usize, index]);
+            if r > 0 {
+                roster.links.push([index - columns as usize, index]);
             }
         }
     }

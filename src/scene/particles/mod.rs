@@ -1,6 +1,6 @@
 //! Who the particles of a scene are: those named one by one, and those of chains and nets, in one list.
 //!
-//! Order: `[[particle]]`, then `[[chain]]`, then `[[net]]`, each in file order; a net column by column. Values are taken as the
+//! Order: `[[particle]]`, then `[[chain]]`, then `[[net]]`, each in file order; a net row by row. Values are taken as the
 //! file has them, sound or not: the check works from this list, too.
 
 mod held;
