@@ -35,7 +35,7 @@ proptest! {
         prop_assert_eq!(setup.names.len(), (columns * rows) as usize);
         prop_assert_eq!(setup.look.links.len(), ((columns - 1) * rows + columns * (rows - 1)) as usize);
         for [a, b] in &setup.look.links {
-            let length = if b - a == 1 && rows > 1 { 0.2_f64.hypot(0.4) } else { 0.3_f64.hypot(0.1) };
+            let length = if b - a == 1 && columns > 1 { 0.3_f64.hypot(0.1) } else { 0.2_f64.hypot(0.4) };
             // Coordinates of 1e3 m are off by half an ulp, 6e-14 m.
             prop_assert!((distance(&setup, *a, *b) - length).abs() < 1e-12, "{} {}", a, b);
         }
@@ -49,10 +49,10 @@ fn a_net_is_named_by_column_and_row_and_folded_along_its_normal() {
         "{SOUND}[[net]]\nname = \"n\"\ncolumns = 3\nrows = 2\ncolumn_step_m = [2, 0, 0]\nrow_step_m = [0, 1, 0]\n\
          mass_kg = 0.5\nfold_rad = {fold}\nfixed = [[0, 0], [2, 0]]\n"
     ));
-    assert_eq!(setup.names, ["n.0.0", "n.0.1", "n.1.0", "n.1.1", "n.2.0", "n.2.1"]);
-    assert_eq!(setup.fixed, [true, false, false, false, true, false]);
+    assert_eq!(setup.names, ["n.0.0", "n.1.0", "n.2.0", "n.0.1", "n.1.1", "n.2.1"]);
+    assert_eq!(setup.fixed, [true, false, true, false, false, false]);
     let (wide, out) = (2.0 * fold.cos(), 2.0 * fold.sin());
-    let expected = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [wide, 0.0, out], [wide, 1.0, out], [2.0 * wide, 0.0, 0.0]];
+    let expected = [[0.0, 0.0, 0.0], [wide, 0.0, out], [2.0 * wide, 0.0, 0.0], [0.0, 1.0, 0.0], [wide, 1.0, out]];
     for (found, expected) in setup.state.position.iter().zip(expected) {
         assert!(found.distance_sq_to(Point::from(expected)) < 1e-30, "{found:?} {expected:?}");
     }
