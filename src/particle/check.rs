@@ -1,5 +1,6 @@
 //! What must hold of a setup before it can move.
 
+use super::xpbd::XpbdError;
 use super::{Constraint, Force, Particles, Setup};
 use crate::algebra::Real;
 use thiserror::Error;
@@ -7,6 +8,9 @@ use thiserror::Error;
 /// What is wrong with particles, forces or constraints.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum SetupError {
+    /// Constraints that cannot be swept over.
+    #[error(transparent)]
+    Sweeps(#[from] XpbdError),
     /// Arrays of different lengths.
     #[error(
         "{particles} positions, {velocities} velocities, {masses} masses, {inv_masses} inverse masses: give one each a particle"

@@ -75,28 +75,6 @@ pub struct Masses<T> {
 }
 
 impl<T: Real> Force<T> {
-    /// Does the force depend on velocities? Splitting methods lose their order then.
-    #[must_use]
-    pub fn depends_on_velocity(&self) -> bool {
-        match self {
-            Self::LinearDrag { .. } | Self::QuadraticDrag { .. } | Self::Law(_) => true,
-            Self::Spring { damping, .. } => *damping != T::zero(),
-            _ => false,
-        }
-    }
-
-    /// Has the force a potential?
-    #[must_use]
-    pub fn is_conservative(&self) -> bool {
-        !self.depends_on_velocity()
-    }
-
-    /// Does the force act between particles only, equal and opposite?
-    #[must_use]
-    pub fn is_internal(&self) -> bool {
-        matches!(self, Self::InverseSquare { .. } | Self::Spring { .. })
-    }
-
     /// Adds the accelerations that the force gives to all particles; those of fixed ones are of no account.
     pub(super) fn accelerate(
         &self,

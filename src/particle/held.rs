@@ -232,12 +232,13 @@ impl Held {
         let squared = (h_s / self.last_h_s).powi(2);
         let warm = if squared < MAX_WARM { squared } else { 0.0 };
         self.last_h_s = h_s;
-        let projected =
-            multipliers.project_along_frozen(rows, inv_mass.as_slice(), &mut positions, tolerance_m, warm)?;
-        let straight = projected.factorisations == 0;
+        let projected = multipliers.project_along_frozen(rows, inv_mass.as_slice(), &mut positions, tolerance_m, warm);
+        let straight = matches!(&projected, Ok(projected) if projected.factorisations == 0);
         if !straight {
+            // Also after an error: the factor may be that of another place.
             self.frozen_at.clear();
         }
+        projected?;
         for (velocity, moved) in state.velocity.iter_mut().zip(multipliers.displacement()) {
             *velocity += (Vector::from(*moved) / h_s).map(T::from_f64);
         }

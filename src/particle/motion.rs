@@ -1,7 +1,5 @@
 //! Particles in motion: a system with the stepper that was chosen for it.
 
-use super::check::check;
-use super::xpbd::XpbdError;
 use super::{LinearSolver, Method, MotionError, Particles, Rates, Setup, SetupError, Solver, Steps, System, Totals};
 use crate::algebra::Real;
 use crate::algebra::cga::Point;
@@ -27,9 +25,6 @@ pub enum SolverError {
     /// The tolerance.
     #[error(transparent)]
     Tolerance(#[from] ToleranceError),
-    /// Constraints that cannot be swept over.
-    #[error(transparent)]
-    Sweeps(#[from] XpbdError),
     /// Sweeps, but not XPBD.
     #[error("`{}` needs multipliers, not sweeps: choose `direct` or `conjugate_gradients`", .0.name())]
     NeedsMultipliers(Method),
@@ -72,7 +67,6 @@ impl<T: Real> Motion<T> {
         if solver.linear == LinearSolver::Sweeps && solver.method != Method::Xpbd {
             return Err(SolverError::NeedsMultipliers(solver.method));
         }
-        check(&setup, &start)?;
         let system = System::new(setup, &start, solver)?;
         let stepper = stepper(&start, solver, max_step_s)?;
         Ok(Self { system, stepper, time_s: 0.0, interpolated: start, between: false })

@@ -8,11 +8,11 @@
 //! constraints after each step. Verlet's method becomes RATTLE (Andersen 1983): its drift holds `C = 0` by multipliers along
 //! the gradients at its start.
 
+use super::check::check;
 use super::fast::Fast;
 use super::held::Held;
 use super::own::Scratch;
-use super::xpbd::XpbdError;
-use super::{Constraint, Force, Masses, Method, Particles, Rates, Solver, Stabilisation, Totals, totals};
+use super::{Constraint, Force, Masses, Method, Particles, Rates, SetupError, Solver, Stabilisation, Totals, totals};
 use crate::algebra::Real;
 use crate::algebra::g3::Vector;
 use crate::constraint::{ProjectionError, SolveError};
@@ -76,7 +76,8 @@ impl<T: Real> System<T> {
     ///
     /// # Errors
     /// Particles, forces or constraints that are not sound.
-    pub fn new(setup: Setup<T>, start: &Particles<T>, solver: &Solver) -> Result<Self, XpbdError> {
+    pub fn new(setup: Setup<T>, start: &Particles<T>, solver: &Solver) -> Result<Self, SetupError> {
+        check(&setup, start)?;
         let fast = (solver.method == Method::Xpbd).then(|| Fast::new(&setup, start, solver)).transpose()?;
         Ok(Self {
             held: Held::new(&setup, start, solver),

@@ -43,7 +43,7 @@ fn add(view: &mut ParticlesView, case: &Case, rtol: f64, times_s: &[f64]) -> Res
         stabilisation: Stabilisation::None,
         ..case.solver(Method::CashKarp, Steps::Adaptive { tolerance }, LinearSolver::Direct)
     };
-    let refused = |error| StudyError::Solver(SolverError::Sweeps(error));
+    let refused = |error| StudyError::Solver(SolverError::Setup(error));
     let mut system = System::new(case.setup.clone(), &case.start, &solver).map_err(refused)?;
     let start = (case.start.clone(), Rates::zeros(count));
     let stepper = Adaptive::<CashKarp, _, f64>::new(0.0, start.0, start.1, tolerance).map_err(SolverError::from)?;
