@@ -5,7 +5,7 @@ use crate::algebra::Real;
 use crate::constraint::{ProjectionError, SolveError};
 use crate::ode::OdeError;
 use crate::particle::{Constraint, MotionError};
-use crate::rigid::rotor::AdvanceError;
+use crate::rigid;
 use crate::simulation::{SimulationError, World};
 
 /// Why a run ended, in the words of its scene.
@@ -26,13 +26,24 @@ pub(super) fn explain<T: Real>(error: &SimulationError, world: &World<T>, cast: 
              step, or a velocity too large; take a smaller `dt_s`",
             names[*body_idx]
         ),
-        SimulationError::Advance(AdvanceError::Spin { body_idx, time_s, omega_rad_s, dt_s }) => format!(
-            "body `{}` spins at {omega_rad_s:e} rad/s at {time_s:.6} s, too fast for a step of {dt_s} s; take a smaller `dt_s`",
+        SimulationError::Bodies(error) => bodies(error, names),
+    }
+}
+
+fn bodies(error: &OdeError<rigid::MotionError>, names: &[String]) -> String {
+    match error {
+        OdeError::System(rigid::MotionError::Spin { body_idx, time_s, turn_rad, dt_s }) => format!(
+            "body `{}` turns by {turn_rad:.1e} rad in a step of {dt_s} s at {time_s:.6} s, too far for a Runge-Kutta method; \
+             take a smaller `dt_s`, or `solver.method = \"yoshida4\"`, which moves free bodies exactly",
             names[*body_idx]
         ),
-        SimulationError::Advance(AdvanceError::Orientation { body_idx, time_s, .. }) => {
-            format!("the orientation of body `{}` is lost at {time_s:.6} s; take a smaller `dt_s`", names[*body_idx])
+        OdeError::System(rigid::MotionError::Orientation { time_s, source }) => {
+            format!(
+                "the orientation of body `{}` is lost at {time_s:.6} s; take a smaller `dt_s`",
+                names[source.body_idx]
+            )
         }
+        _ => error.to_string(),
     }
 }
 

@@ -9,8 +9,7 @@ use crate::io::html;
 use crate::io::summary::{self, ParticleSettings, ParticleWork, Settings, Summary};
 use crate::io::tables;
 use crate::particle::{Motion, Particles};
-use crate::rigid::Bodies;
-use crate::rigid::rotor::MAX_TURN_RAD;
+use crate::rigid::{self, Bodies};
 use crate::scene::build::{Built, build};
 use crate::scene::description::{Constraint, Force, Method, Scalar};
 use crate::scene::plan::{self, SolverPlan};
@@ -50,12 +49,13 @@ fn run_in<T: Real>(options: &Options, scene: &Scene, source: SceneSource) -> Res
         Ok(built) => built,
         Err(diagnostics) => return Err(Failure::rejected(Rejected { source, diagnostics })),
     };
-    let Built { setup, looks, particles } = built;
+    let Built { setup, subject, body_solver, looks, particles } = built;
     let cast = Cast::of(scene, looks, particles.as_ref());
     let out = options.out.clone().unwrap_or_else(|| Path::new("out").join(scene_name(&options.scene)));
     // Before the run: a directory that cannot be made should not cost a simulation.
     std::fs::create_dir_all(&out).map_err(|source| WriteError { path: out.clone(), source })?;
-    let mut world = World::new(setup);
+    let bodies = rigid::Motion::new(subject, &setup.bodies, &body_solver);
+    let mut world = World::new(setup, bodies.map_err(|reason| Failure::input(reason.to_string()))?);
     if let Some(particles) = particles {
         let solver = SolverPlan::of(scene).of_particles(plan::interval_s(scene));
         let mut motion = particles
@@ -185,10 +185,8 @@ fn summarise<T: Real>(
             record_hz: plan::record_hz(scene),
             formulation: "rotor".into(),
             scalar: if size_of::<T>() == size_of::<f64>() { "f64".into() } else { "f32".into() },
-            method: "rk4".into(),
+            method: rigid::Method::Yoshida6.name().into(),
             particle_solver: (!cast.particles.is_empty()).then(|| particle_settings(&SolverPlan::of(scene))),
-            max_turn_rad: MAX_TURN_RAD,
-            substeps: world.substeps(),
             gravity_m_s2: scene.gravity_m_s2.get_ref().0,
             restitution: *scene.contact.restitution.get_ref(),
             overrides: source.overrides().to_vec(),
@@ -319,7 +317,7 @@ fn held(violation_m: f64, summary: &Summary) -> String {
 
 /// How many steps were made: of bodies, and of particles.
 fn steps(summary: &Summary) -> String {
-    let bodies = format!("{} ({} substeps)", summary.steps, summary.settings.substeps);
+    let bodies = summary.steps.to_string();
     match (&summary.particle_work, &summary.settings.particle_solver) {
         (Some(work), Some(solver)) => {
             let of = format!(

@@ -192,19 +192,31 @@ impl<'a, T: Real> Frame<'a, T> {
     /// The contact of a vertex with the nearest face. Where several are equally near, to within what counts as
     /// simultaneous, with the one that it came through: of their planes that it is crossing inwards, the one it crossed
     /// last, `-height / speed` ago. So the corners of aligned boxes, which slide in the planes beside the struck face at
-    /// height 0 by rounding or exactly, get the normal of that face.
+    /// height 0 by rounding or exactly, get the normal of that face. A vertex that slides along the nearest came
+    /// through another face, however deep behind it it is by now.
     fn vertex_contact(&self, vertex: Point<T>) -> Option<Contact<T>> {
         let (highest, nearest) = self.host.1.height(vertex)?;
         let near = highest - margin(Reach::Simultaneous, self.host.1).max(margin(Reach::Simultaneous, self.guest.1));
+        if let Some(contact) = self.last_crossed(vertex, near) {
+            return Some(contact);
+        }
+        let contact = self.contact(vertex, nearest.plane.normal(), highest);
+        let (bodies, inertias) = (self.all.bodies, self.all.inertias);
+        let slides = contact.approach_speed(bodies, inertias) >= -contact.speed_rounding(bodies, inertias);
+        let through = slides.then(|| self.last_crossed(vertex, T::from_f64(f64::NEG_INFINITY))).flatten();
+        Some(through.unwrap_or(contact))
+    }
+
+    /// The contact with the face that a vertex crossed last, of those whose planes it is above `lowest` of, inwards.
+    fn last_crossed(&self, vertex: Point<T>, lowest: T) -> Option<Contact<T>> {
         let crossed = self.host.1.facets.iter().filter_map(|facet| {
             let height = facet.height(vertex);
-            let contact = (height >= near).then(|| self.contact(vertex, facet.plane.normal(), height))?;
+            let contact = (height >= lowest).then(|| self.contact(vertex, facet.plane.normal(), height))?;
             let speed = contact.approach_speed(self.all.bodies, self.all.inertias);
             let inwards = speed > contact.speed_rounding(self.all.bodies, self.all.inertias);
             inwards.then(|| (-height / speed, contact))
         });
-        let last = crossed.reduce(|last, next| if next.0 < last.0 { next } else { last });
-        Some(last.map_or_else(|| self.contact(vertex, nearest.plane.normal(), highest), |(_, contact)| contact))
+        crossed.reduce(|last, next| if next.0 < last.0 { next } else { last }).map(|(_, contact)| contact)
     }
 
     /// Do all vertices of the guest lie before the plane of one of the host's facets, to within `slack`?

@@ -102,10 +102,6 @@ pub struct Settings {
     pub method: String,
     /// The solver of particles; null without particles.
     pub particle_solver: Option<ParticleSettings>,
-    /// The largest turn of a body in one substep, rad.
-    pub max_turn_rad: f64,
-    /// Substeps of the integrator, those of the search for impacts included.
-    pub substeps: u64,
     /// Gravity, m/s².
     pub gravity_m_s2: [f64; 3],
     /// Restitution.

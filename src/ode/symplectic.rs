@@ -62,8 +62,12 @@ impl Composition {
         }
     }
 
-    /// A step of `state`: the acceleration there is `first`, that at the end is left in `last`.
-    fn apply<S, T: Real, Y: Mechanics<S, T> + ?Sized>(
+    /// A step `(t_s, h_s)` of a state of the caller's: the acceleration there is `first`, that at the end is left in `last`.
+    /// For runs of steps, with output at given times, see [`Symplectic`].
+    ///
+    /// # Errors
+    /// Those of the system; the state is then somewhere within the step.
+    pub fn apply<S, T: Real, Y: Mechanics<S, T> + ?Sized>(
         self,
         mechanics: &mut Y,
         (t_s, h_s): (f64, f64),

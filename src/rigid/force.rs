@@ -1,10 +1,59 @@
-//! Forces on bodies: uniform gravity, a force at a body point for a time span, linear drag.
+//! Forces and torques on bodies: uniform gravity, a force at a body point or a torque for a time span, drag, springs
+//! between points of bodies or of the world.
 
+use super::{Formulation, Inertia, Wrenches};
 use crate::algebra::Real;
+use crate::algebra::cga::Point;
 use crate::algebra::g3::{Bivector, Vector};
 use alloc::vec::Vec;
 
-/// A force on one body.
+/// A point that something is attached to: the end of a spring or joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Attachment<T> {
+    /// A point of a body.
+    Body {
+        /// The body.
+        body_idx: usize,
+        /// The point, in the body frame, m.
+        at_body: Vector<T>,
+    },
+    /// A point of the world, m.
+    World(Point<f64>),
+}
+
+/// Where an attachment is: the arm from the centre of mass of its body to it, world, and its velocity.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End<T> {
+    pub(super) arm: Vector<T>,
+    pub(super) position: Point<f64>,
+    pub(super) velocity: Vector<T>,
+}
+
+impl<T: Real> Attachment<T> {
+    /// Its body; none for a point of the world.
+    #[must_use]
+    pub fn body_idx(&self) -> Option<usize> {
+        match self {
+            Self::Body { body_idx, .. } => Some(*body_idx),
+            Self::World(_) => None,
+        }
+    }
+
+    pub(super) fn end(&self, state: &impl Formulation<T>, inertias: &[Inertia<T>]) -> End<T> {
+        match self {
+            Self::Body { body_idx, at_body } => {
+                let arm = state.to_world(*body_idx, *at_body);
+                let inertia = &inertias[*body_idx];
+                // v = x . Omega
+                let velocity = state.velocity(*body_idx, inertia) + (arm | state.omega_world(*body_idx, inertia));
+                End { arm, position: state.position(*body_idx).moved(arm.map(Real::to_f64)), velocity }
+            }
+            Self::World(point) => End { arm: Vector::default(), position: *point, velocity: Vector::default() },
+        }
+    }
+}
+
+/// A force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Force<T> {
     /// A constant force at a point of the body, from `start_s` (inclusive) to `end_s` (exclusive).
@@ -20,6 +69,17 @@ pub enum Force<T> {
         /// End, s.
         end_s: f64,
     },
+    /// A constant torque, from `start_s` (inclusive) to `end_s` (exclusive).
+    Torque {
+        /// The body.
+        body_idx: usize,
+        /// The torque, N m, world: it turns from e2 to e3 where its component e23 is positive.
+        torque_world: Bivector<T>,
+        /// Start, s.
+        start_s: f64,
+        /// End, s.
+        end_s: f64,
+    },
     /// `F = -k v` and torque `-k_angular Omega`.
     LinearDrag {
         /// The body.
@@ -28,6 +88,19 @@ pub enum Force<T> {
         k: T,
         /// `k_angular`, N m s.
         k_angular: T,
+    },
+    /// `F = -(k (r - l) + c rdot)` along the line of two points.
+    Spring {
+        /// The first end.
+        a: Attachment<T>,
+        /// The second end.
+        b: Attachment<T>,
+        /// k, N/m.
+        stiffness: T,
+        /// c, N s/m.
+        damping: T,
+        /// l, m.
+        rest_length: T,
     },
 }
 
@@ -40,14 +113,6 @@ pub struct Forces<T> {
     pub forces: Vec<Force<T>>,
 }
 
-/// What a force sees of its body.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Motion<T> {
-    pub(super) rotor: crate::algebra::g3::Rotor<T>,
-    pub(super) velocity: Vector<T>,
-    pub(super) omega_world: Bivector<T>,
-}
-
 impl<T: Real> Forces<T> {
     /// The times strictly within a span at which a force starts or ends: the integrator must not step across them, or
     /// it falls to first order there.
@@ -55,7 +120,7 @@ impl<T: Real> Forces<T> {
     pub fn switches_within(&self, from_s: f64, to_s: f64) -> Vec<f64> {
         let mut times: Vec<f64> = Vec::new();
         for force in &self.forces {
-            if let Force::AtPoint { start_s, end_s, .. } = force {
+            if let Force::AtPoint { start_s, end_s, .. } | Force::Torque { start_s, end_s, .. } = force {
                 times.extend([*start_s, *end_s].into_iter().filter(|time| from_s < *time && *time < to_s));
             }
         }
@@ -63,37 +128,102 @@ impl<T: Real> Forces<T> {
         times.dedup();
         times
     }
-}
 
-impl<T: Real> Force<T> {
-    /// The body that it acts on.
-    #[must_use]
-    pub fn body_idx(&self) -> usize {
-        match self {
-            Self::AtPoint { body_idx, .. } | Self::LinearDrag { body_idx, .. } => *body_idx,
+    /// What gravity and the forces listed do to every body that moves.
+    pub fn wrenches(
+        &self,
+        acting: &[usize],
+        state: &impl Formulation<T>,
+        inertias: &[Inertia<T>],
+        wrenches: &mut Wrenches<T>,
+    ) {
+        for (force, inertia) in wrenches.force.iter_mut().zip(inertias) {
+            *force = self.gravity * inertia.mass;
+        }
+        wrenches.torque.fill(Bivector::default());
+        for index in acting {
+            self.forces[*index].add_to(state, inertias, wrenches);
+        }
+        for (body_idx, _) in inertias.iter().enumerate().filter(|(_, inertia)| inertia.is_immovable()) {
+            wrenches.force[body_idx] = Vector::default();
+            wrenches.torque[body_idx] = Bivector::default();
         }
     }
 
+    /// The potential energy of gravity and springs, J; that of gravity is zero at the origin.
+    #[must_use]
+    pub fn potential(&self, state: &impl Formulation<T>, inertias: &[Inertia<T>]) -> f64 {
+        let gravity = self.gravity.map(Real::to_f64);
+        let weight = |(body_idx, inertia): (usize, &Inertia<T>)| {
+            -inertia.mass.to_f64() * (gravity | state.position(body_idx).position())
+        };
+        let weights: f64 = inertias.iter().enumerate().map(weight).sum();
+        weights + self.forces.iter().map(|force| force.potential(state, inertias)).sum::<f64>()
+    }
+}
+
+impl<T: Real> Force<T> {
     /// Does it act in a span that it does not switch within?
     #[must_use]
     pub fn acts_in(&self, from_s: f64, to_s: f64) -> bool {
         match self {
-            Self::AtPoint { start_s, end_s, .. } => {
+            Self::AtPoint { start_s, end_s, .. } | Self::Torque { start_s, end_s, .. } => {
                 let middle = from_s + (to_s - from_s) * 0.5;
                 *start_s <= middle && middle < *end_s
             }
-            Self::LinearDrag { .. } => true,
+            Self::LinearDrag { .. } | Self::Spring { .. } => true,
         }
     }
 
-    /// Force, N, and torque `r ^ F` about the centre of mass, N m; world.
-    pub(super) fn apply(&self, motion: Motion<T>) -> (Vector<T>, Bivector<T>) {
+    /// Does it depend on velocities? Splitting methods keep their order only without.
+    #[must_use]
+    pub fn damps(&self) -> bool {
         match self {
-            Self::AtPoint { at_body, force_world, .. } => {
-                let arm = motion.rotor.apply(*at_body);
-                (*force_world, arm ^ *force_world)
-            }
-            Self::LinearDrag { k, k_angular, .. } => (-motion.velocity * *k, -motion.omega_world * *k_angular),
+            Self::AtPoint { .. } | Self::Torque { .. } => false,
+            Self::LinearDrag { .. } => true,
+            Self::Spring { damping, .. } => *damping != T::zero(),
         }
+    }
+
+    fn add_to(&self, state: &impl Formulation<T>, inertias: &[Inertia<T>], wrenches: &mut Wrenches<T>) {
+        match self {
+            Self::AtPoint { body_idx, at_body, force_world, .. } => {
+                wrenches.force[*body_idx] += *force_world;
+                wrenches.torque[*body_idx] += state.to_world(*body_idx, *at_body) ^ *force_world;
+            }
+            Self::Torque { body_idx, torque_world, .. } => wrenches.torque[*body_idx] += *torque_world,
+            Self::LinearDrag { body_idx, k, k_angular } => {
+                let inertia = &inertias[*body_idx];
+                wrenches.force[*body_idx] -= state.velocity(*body_idx, inertia) * *k;
+                wrenches.torque[*body_idx] -= state.omega_world(*body_idx, inertia) * *k_angular;
+            }
+            Self::Spring { a, b, stiffness, damping, rest_length } => {
+                let (end_a, end_b) = (a.end(state, inertias), b.end(state, inertias));
+                let between = end_a.position.displacement_to(end_b.position).map(T::from_f64);
+                let length = between.norm_sq().sqrt();
+                // Ends at one place pull nowhere.
+                if length == T::zero() {
+                    return;
+                }
+                let along = between / length;
+                let rate = along | (end_b.velocity - end_a.velocity);
+                let pull = along * (*stiffness * (length - *rest_length) + *damping * rate);
+                for (attachment, end, pull) in [(a, end_a, pull), (b, end_b, -pull)] {
+                    if let Some(body_idx) = attachment.body_idx() {
+                        wrenches.force[body_idx] += pull;
+                        wrenches.torque[body_idx] += end.arm ^ pull;
+                    }
+                }
+            }
+        }
+    }
+
+    fn potential(&self, state: &impl Formulation<T>, inertias: &[Inertia<T>]) -> f64 {
+        let Self::Spring { a, b, stiffness, rest_length, .. } = self else {
+            return 0.0;
+        };
+        let (from, to) = (a.end(state, inertias).position, b.end(state, inertias).position);
+        let stretch = from.distance_sq_to(to).sqrt() - rest_length.to_f64();
+        0.5 * stiffness.to_f64() * stretch * stretch
     }
 }

@@ -1,13 +1,30 @@
-//! Rigid bodies: state, inertia, forces, and the formulations of their motion.
+//! Rigid bodies: state, inertia, forces, joints, and the formulations of their motion.
 //!
-//! A formulation is a file with the functions `rhs`, `renormalise`, `advance`; [`rotor`] is the G(3,0) one.
+//! A formulation is a file with the functions `rhs`, `renormalise`, `advance`; [`rotor`] is the G(3,0) one, whose state is
+//! [`Bodies`].
 
+pub mod axis_splitting;
 mod body;
 mod energy;
+mod error;
 mod force;
+mod formulation;
+mod inertia;
+mod joint;
+mod method;
+mod motion;
 pub mod rotor;
+mod stepping;
+mod system;
 
 pub use crate::particle::Totals;
-pub use body::{Bodies, BodyError, Inertia, Rates};
+pub use body::Bodies;
 pub use energy::totals;
-pub use force::{Force, Forces};
+pub use error::{MotionError, SolverError};
+pub use force::{Attachment, Force, Forces};
+pub use formulation::{Formulation, OrientationLost, Wrenches};
+pub use inertia::{Inertia, InertiaError, Principal};
+pub use joint::Joint;
+pub use method::{Form, Method, Solver, Steps};
+pub use motion::Motion;
+pub use system::{Setup, System};

@@ -4,179 +4,224 @@
 //! xdot = p / m     Rdot = -1/2 R Omega_body     pdot = F     Ldot = tau = r ^ F     Omega_body = I^-1 (~R L R)
 //! ```
 //!
-//! Integrated by classical RK4; the rotor is brought back to unit norm after every step. L and p are exact where no
-//! force acts.
+//! Its state is [`Bodies`]. L and p are exact where no force acts.
 
-use super::force::Motion;
-use super::{Bodies, Force, Forces, Inertia, Rates};
+use super::{Bodies, Formulation, Inertia, MotionError, OrientationLost, System, Wrenches};
 use crate::algebra::Real;
-use crate::algebra::g3::Rotor;
-use crate::ode::{Rk4, RungeKutta};
-use crate::versor::NotARotor;
+use crate::algebra::cga::Point;
+use crate::algebra::g3::{Bivector, Even, Rotor, Vector};
+use crate::ode::{Controlled, Rk4, RungeKutta, State, Tolerance};
+use alloc::vec;
 use alloc::vec::Vec;
 
-/// The largest turn of any body in one substep, rad. RK4 then errs by less than `(0.03/2)^5 / 120`, 6e-12 rad, a
-/// substep; ten times the turn costs five digits, a tenth of it gains nothing visible before round-off.
-pub const MAX_TURN_RAD: f64 = 0.03;
-
-/// The largest change of the phase of a body's own wobble in one substep, rad. In the body frame the momentum turns at up
-/// to `|L| / I_min`, which for a slender body is far above its spin; RK4 is stable to 2.8 of this, and accurate at 1 for a
-/// wobble that is small.
-const MAX_WOBBLE_RAD: f64 = 1.0;
-
-/// A step that would take more substeps is refused: the body spins faster than its step can follow.
-const MAX_SUBSTEPS: f64 = 1e6;
-
-/// Why a step cannot be made.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum AdvanceError {
-    /// The orientation of a body is no rotor any more: its numbers overflowed.
-    #[error("the orientation of body {body_idx} is lost at {time_s} s: {source}")]
-    Orientation {
-        /// The body.
-        body_idx: usize,
-        /// When.
-        time_s: f64,
-        /// The rotor found.
-        source: NotARotor,
-    },
-    /// Too fast a spin for the step.
-    #[error(
-        "at {time_s} s body {body_idx} spins at {omega_rad_s:e} rad/s, too fast for a step of {dt_s} s: take a smaller `dt_s`"
-    )]
-    Spin {
-        /// The body.
-        body_idx: usize,
-        /// When.
-        time_s: f64,
-        /// How fast.
-        omega_rad_s: f64,
-        /// The step.
-        dt_s: f64,
-    },
+/// The rate of change of every array of [`Bodies`].
+#[derive(Clone, Debug, Default)]
+pub struct Rates<T> {
+    /// xdot, m/s.
+    pub position: Vec<Vector<T>>,
+    /// Rdot, as four numbers, 1/s.
+    pub rotor: Vec<Even<T>>,
+    /// Force, N.
+    pub momentum: Vec<Vector<T>>,
+    /// Torque about the centre of mass, N m.
+    pub angular_momentum: Vec<Bivector<T>>,
 }
 
-/// Integrates the rotor form; holds the stage storage.
-#[derive(Clone, Debug)]
-pub struct Integrator<T: Real> {
-    rk4: RungeKutta<Rk4, Bodies<T>, T>,
-    /// Indices of the forces that act in the current span.
-    acting: Vec<usize>,
-}
-
-impl<T: Real> Integrator<T> {
-    /// Storage for as many bodies as the state has.
+impl<T: Real> Rates<T> {
+    /// Zero rates of `n` bodies.
     #[must_use]
-    pub fn new(bodies: &Bodies<T>) -> Self {
-        Self { rk4: RungeKutta::new(bodies.clone(), Rates::zeros(bodies.len())), acting: Vec::new() }
-    }
-
-    /// Advances all bodies from `time_s` by `dt_s`, in equal substeps between the times at which forces switch. Returns
-    /// the number of substeps.
-    ///
-    /// # Errors
-    /// A spin that the step cannot follow, an orientation that overflowed.
-    pub fn advance(
-        &mut self,
-        bodies: &mut Bodies<T>,
-        inertias: &[Inertia<T>],
-        forces: &Forces<T>,
-        time_s: f64,
-        dt_s: f64,
-    ) -> Result<usize, AdvanceError> {
-        let mut from = time_s;
-        let mut count = 0;
-        let switches = forces.switches_within(time_s, time_s + dt_s);
-        for to in switches.into_iter().chain([time_s + dt_s]) {
-            // The last span is what is left of dt, not a difference of absolute times, which would lose its digits.
-            let span = if from == time_s && to == time_s + dt_s { dt_s } else { to - from };
-            count += self.advance_span(bodies, inertias, forces, from, span)?;
-            from = to;
+    pub fn zeros(n: usize) -> Self {
+        Self {
+            position: vec![Vector::default(); n],
+            rotor: vec![Even::default(); n],
+            momentum: vec![Vector::default(); n],
+            angular_momentum: vec![Bivector::default(); n],
         }
-        Ok(count)
     }
-
-    fn advance_span(
-        &mut self,
-        bodies: &mut Bodies<T>,
-        inertias: &[Inertia<T>],
-        forces: &Forces<T>,
-        time_s: f64,
-        dt_s: f64,
-    ) -> Result<usize, AdvanceError> {
-        let substeps = substeps(bodies, inertias, time_s, dt_s)?;
-        self.acting.clear();
-        let acting = forces.forces.iter().enumerate().filter(|(_, force)| force.acts_in(time_s, time_s + dt_s));
-        self.acting.extend(acting.map(|(index, _)| index));
-        let h = dt_s / f64::from(substeps);
-        for index in 0..substeps {
-            let start = time_s + h * f64::from(index);
-            let acting = &self.acting;
-            let mut motion = |_: f64, state: &Bodies<T>, rates: &mut Rates<T>| {
-                rhs(state, inertias, forces.gravity, acting.iter().map(|index| &forces.forces[*index]), rates);
-            };
-            let Ok(()) = self.rk4.step(bodies, start, h, &mut motion);
-            renormalise(bodies, start + h)?;
-        }
-        Ok(substeps as usize)
-    }
-}
-
-/// Enough substeps that no body turns by more than [`MAX_TURN_RAD`], nor wobbles by more than [`MAX_WOBBLE_RAD`], in one.
-fn substeps<T: Real>(bodies: &Bodies<T>, inertias: &[Inertia<T>], time_s: f64, dt_s: f64) -> Result<u32, AdvanceError> {
-    let mut most = 1.0_f64;
-    for (body_idx, inertia) in inertias.iter().enumerate() {
-        let omega_rad_s = bodies.omega_body(body_idx, inertia).norm_sq().sqrt().to_f64();
-        // The Frobenius norm of the inverse inertia is at least 1 / I_min, and at most sqrt(3) times that.
-        let inverse = inertia.inv_inertia_body.iter().flatten().map(|x| x.to_f64() * x.to_f64()).sum::<f64>().sqrt();
-        let wobble_rad_s = inverse * bodies.angular_momentum[body_idx].norm_sq().to_f64().sqrt();
-        let wanted = (dt_s * (omega_rad_s / MAX_TURN_RAD).max(wobble_rad_s / MAX_WOBBLE_RAD)).ceil();
-        if !(wanted <= MAX_SUBSTEPS) {
-            return Err(AdvanceError::Spin { body_idx, time_s, omega_rad_s, dt_s });
-        }
-        most = most.max(wanted);
-    }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 1 and MAX_SUBSTEPS")]
-    Ok(most as u32)
 }
 
 /// The equations of motion, for every body.
-pub fn rhs<'a, T: Real>(
-    bodies: &Bodies<T>,
-    inertias: &[Inertia<T>],
-    gravity: crate::algebra::g3::Vector<T>,
-    forces: impl Iterator<Item = &'a Force<T>>,
-    rates: &mut Rates<T>,
-) {
+pub fn rhs<T: Real>(bodies: &Bodies<T>, inertias: &[Inertia<T>], wrenches: &Wrenches<T>, rates: &mut Rates<T>) {
     for (body_idx, inertia) in inertias.iter().enumerate() {
         let rotor = bodies.rotor[body_idx];
         let omega_body = bodies.omega_body(body_idx, inertia);
         rates.position[body_idx] = bodies.momentum[body_idx] * inertia.inv_mass;
         rates.rotor[body_idx] = (rotor * omega_body) * T::ratio(-1, 2);
-        rates.momentum[body_idx] = gravity * inertia.mass;
-        rates.angular_momentum[body_idx] = Default::default();
     }
-    for force in forces {
-        let body_idx = force.body_idx();
-        let motion = Motion {
-            rotor: bodies.rotor[body_idx],
-            velocity: rates.position[body_idx],
-            omega_world: bodies.omega_world(body_idx, &inertias[body_idx]),
-        };
-        let (push, torque) = force.apply(motion);
-        rates.momentum[body_idx] += push;
-        rates.angular_momentum[body_idx] += torque;
-    }
+    rates.momentum.copy_from_slice(&wrenches.force);
+    rates.angular_momentum.copy_from_slice(&wrenches.torque);
 }
 
 /// Brings every rotor back to unit norm.
 ///
 /// # Errors
-/// A rotor whose numbers overflowed.
-pub fn renormalise<T: Real>(bodies: &mut Bodies<T>, time_s: f64) -> Result<(), AdvanceError> {
+/// A rotor whose numbers overflowed or vanished.
+pub fn renormalise<T: Real>(bodies: &mut Bodies<T>) -> Result<(), OrientationLost> {
     for (body_idx, rotor) in bodies.rotor.iter_mut().enumerate() {
-        let lost = |source| AdvanceError::Orientation { body_idx, time_s, source };
-        *rotor = Rotor::normalise((*rotor).into()).map_err(lost)?;
+        let lost = |_| OrientationLost { body_idx, reason: "its rotor has no norm" };
+        *rotor = rotor.renormalise().map_err(lost)?;
     }
     Ok(())
+}
+
+/// One step of classical RK4, then [`renormalise`].
+///
+/// # Errors
+/// A rotor whose numbers overflowed or vanished.
+pub fn advance<T: Real>(
+    bodies: &mut Bodies<T>,
+    rk4: &mut RungeKutta<Rk4, Bodies<T>, T>,
+    system: &mut System<T>,
+    t_s: f64,
+    h_s: f64,
+) -> Result<(), MotionError> {
+    rk4.step(bodies, t_s, h_s, system)?;
+    renormalise(bodies).map_err(|source| MotionError::Orientation { time_s: t_s + h_s, source })
+}
+
+impl<T: Real> Formulation<T> for Bodies<T> {
+    fn from_bodies(bodies: &Self) -> Self {
+        bodies.clone()
+    }
+
+    fn read_from(&mut self, bodies: &Self) {
+        self.assign(bodies);
+    }
+
+    fn write_to(&self, bodies: &mut Self) {
+        bodies.assign(self);
+    }
+
+    fn zero_rates(&self) -> Rates<T> {
+        Rates::zeros(self.len())
+    }
+
+    fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    #[inline]
+    fn position(&self, body_idx: usize) -> Point<f64> {
+        self.position[body_idx]
+    }
+
+    #[inline]
+    fn to_world(&self, body_idx: usize, x_body: Vector<T>) -> Vector<T> {
+        self.rotor[body_idx].apply(x_body)
+    }
+
+    #[inline]
+    fn velocity(&self, body_idx: usize, inertia: &Inertia<T>) -> Vector<T> {
+        Self::velocity(self, body_idx, inertia)
+    }
+
+    #[inline]
+    fn omega_world(&self, body_idx: usize, inertia: &Inertia<T>) -> Bivector<T> {
+        Self::omega_world(self, body_idx, inertia)
+    }
+
+    fn rhs(&self, inertias: &[Inertia<T>], wrenches: &Wrenches<T>, rates: &mut Rates<T>) {
+        rhs(self, inertias, wrenches, rates);
+    }
+
+    fn renormalise(&mut self) -> Result<bool, OrientationLost> {
+        renormalise(self).map(|()| true)
+    }
+}
+
+impl<T: Real> State<T> for Bodies<T> {
+    type Rate = Rates<T>;
+
+    fn assign(&mut self, other: &Self) {
+        self.position.clone_from(&other.position);
+        self.rotor.clone_from(&other.rotor);
+        self.momentum.clone_from(&other.momentum);
+        self.angular_momentum.clone_from(&other.angular_momentum);
+        self.matrix.clone_from(&other.matrix);
+    }
+
+    fn add_scaled(&mut self, terms: &[(T, &Rates<T>)]) {
+        for body_idx in 0..self.position.len() {
+            let change = Change::new(terms, body_idx);
+            self.position[body_idx] = self.position[body_idx].moved(change.position.map(Real::to_f64));
+            // A stage may leave the unit rotors; `renormalise` brings the step back.
+            let (rotor, turned) = (&mut self.rotor[body_idx], change.rotor);
+            *rotor =
+                Rotor::new(rotor.s + turned.s, rotor.e23 + turned.e23, rotor.e31 + turned.e31, rotor.e12 + turned.e12);
+            self.momentum[body_idx] += change.momentum;
+            self.angular_momentum[body_idx] += change.angular_momentum;
+        }
+    }
+}
+
+/// `sum h_i k_i` for one body.
+struct Change<T> {
+    position: Vector<T>,
+    rotor: Even<T>,
+    momentum: Vector<T>,
+    angular_momentum: Bivector<T>,
+}
+
+impl<T: Real> Change<T> {
+    #[inline]
+    fn new(terms: &[(T, &Rates<T>)], body_idx: usize) -> Self {
+        let zero = Self {
+            position: Vector::default(),
+            rotor: Even::default(),
+            momentum: Vector::default(),
+            angular_momentum: Bivector::default(),
+        };
+        terms.iter().fold(zero, |sum, (h, rates)| Self {
+            position: sum.position + rates.position[body_idx] * *h,
+            rotor: sum.rotor + rates.rotor[body_idx] * *h,
+            momentum: sum.momentum + rates.momentum[body_idx] * *h,
+            angular_momentum: sum.angular_momentum + rates.angular_momentum[body_idx] * *h,
+        })
+    }
+}
+
+impl<T: Real> Controlled<T> for Bodies<T> {
+    /// Number by number: positions in m, rotors, momenta.
+    fn error_ratio(&self, next: &Self, terms: &[(T, &Rates<T>)], tolerance: Tolerance<T>) -> T {
+        let mut worst = Worst::new(tolerance);
+        for body_idx in 0..self.position.len() {
+            let error = Change::new(terms, body_idx);
+            let x = |at: &Self| at.position[body_idx].position().map(T::from_f64);
+            worst.take::<3>(error.position.into(), x(self).into(), x(next).into());
+            worst.take::<4>(error.rotor.into(), self.rotor[body_idx].into(), next.rotor[body_idx].into());
+            worst.take::<3>(error.momentum.into(), self.momentum[body_idx].into(), next.momentum[body_idx].into());
+            let spin = |at: &Self| at.angular_momentum[body_idx].into();
+            worst.take::<3>(error.angular_momentum.into(), spin(self), spin(next));
+        }
+        worst.ratio()
+    }
+}
+
+/// The largest error in units of what is allowed.
+pub(super) struct Worst<T> {
+    tolerance: Tolerance<T>,
+    worst: T,
+    sum: T,
+}
+
+impl<T: Real> Worst<T> {
+    pub(super) fn new(tolerance: Tolerance<T>) -> Self {
+        Self { tolerance, worst: T::zero(), sum: T::zero() }
+    }
+
+    /// Takes account of numbers with errors, before and after a step.
+    #[inline]
+    pub(super) fn take<const N: usize>(&mut self, error: [T; N], before: [T; N], after: [T; N]) {
+        for (error, (before, after)) in error.into_iter().zip(before.into_iter().zip(after)) {
+            let allowed = self.tolerance.atol + self.tolerance.rtol * before.abs().max(after.abs());
+            let ratio = if error == T::zero() { T::zero() } else { error.abs() / allowed };
+            self.worst = self.worst.max(ratio);
+            self.sum = self.sum + ratio;
+        }
+    }
+
+    /// A maximum forgets what is no number, a sum does not.
+    pub(super) fn ratio(&self) -> T {
+        if self.sum.is_finite() { self.worst } else { self.sum }
+    }
 }

@@ -150,7 +150,7 @@ fn larger(known: f64, error: f64) -> f64 {
 }
 
 fn frame<T: Real>(world: &World<T>) -> Frame {
-    let (bodies, inertias) = (world.bodies(), world.inertias());
+    let (bodies, inertias) = (world.bodies(), world.motion().inertias());
     let sample = |index: usize| BodySample {
         position: bodies.position[index],
         rotor: bodies.rotor[index].map(Real::to_f64),

@@ -3,10 +3,9 @@
 use super::{Event, EventKind};
 use crate::algebra::Real;
 use crate::collision::{self, Collider, Contact, NarrowPhase, Reach, Scenery};
-use crate::ode::OdeError;
-use crate::particle::{Motion, MotionError};
-use crate::rigid::rotor::{AdvanceError, Integrator};
-use crate::rigid::{Bodies, Forces, Inertia, Totals, totals};
+use crate::ode::{OdeError, State};
+use crate::particle;
+use crate::rigid::{Bodies, Motion, MotionError, Totals};
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use thiserror::Error;
@@ -25,10 +24,10 @@ const PERSISTING_IMPACTS: usize = 64;
 pub enum SimulationError {
     /// The particles cannot go on.
     #[error(transparent)]
-    Particles(#[from] OdeError<MotionError>),
-    /// The motion cannot be continued.
+    Particles(#[from] OdeError<particle::MotionError>),
+    /// The bodies cannot go on.
     #[error(transparent)]
-    Advance(#[from] AdvanceError),
+    Bodies(#[from] OdeError<MotionError>),
     /// A momentum or position left the range of the numbers.
     #[error("the motion of body {body_idx} left the range of the numbers at {time_s} s")]
     OutOfRange {
@@ -49,17 +48,13 @@ pub enum SimulationError {
     },
 }
 
-/// What a simulation is made of. Every list has one entry a body.
-#[derive(Clone, Debug)]
+/// What a simulation of bodies is made of, beside their motion.
+#[derive(Clone, Debug, Default)]
 pub struct Setup<T> {
     /// The state at the start.
     pub bodies: Bodies<T>,
-    /// Masses and inertias.
-    pub inertias: Vec<Inertia<T>>,
-    /// Shapes for collisions.
+    /// Shapes for collisions, one entry a body.
     pub colliders: Vec<Collider<T>>,
-    /// Gravity and other forces.
-    pub forces: Forces<T>,
     /// Restitution of every impact.
     pub restitution: T,
 }
@@ -67,10 +62,10 @@ pub struct Setup<T> {
 /// A running simulation.
 pub struct World<T: Real> {
     setup: Setup<T>,
+    motion: Motion<T>,
     /// Bodies and particles do not act on each other.
-    particles: Option<Motion<T>>,
+    particles: Option<particle::Motion<T>>,
     trial: Bodies<T>,
-    integrator: Integrator<T>,
     narrow_phase: NarrowPhase<T>,
     /// Pairs that could collide: both have a shape, and one of them moves.
     pairs: Vec<(usize, usize)>,
@@ -78,35 +73,33 @@ pub struct World<T: Real> {
     /// For each pair: when it last struck, and how many times in a row without getting apart in between.
     impacts: BTreeMap<(usize, usize), (f64, usize)>,
     time_s: f64,
-    substeps: u64,
 }
 
 impl<T: Real> World<T> {
-    /// A simulation at time 0.
+    /// A simulation at time 0. `motion` is that of the bodies of the setup.
     #[must_use]
-    pub fn new(setup: Setup<T>) -> Self {
+    pub fn new(setup: Setup<T>, motion: Motion<T>) -> Self {
         let shaped = |index: &usize| !matches!(setup.colliders[*index], Collider::None);
-        let moves = |index: usize| setup.inertias[index].inv_mass > T::zero();
+        let moves = |index: usize| !motion.inertias()[index].is_immovable();
         let indices: Vec<usize> = (0..setup.bodies.len()).filter(shaped).collect();
         let pairs = indices.iter().flat_map(|a| indices.iter().map(move |b| (*a, *b)));
         let pairs = pairs.filter(|(a, b)| a < b && (moves(*a) || moves(*b))).collect();
         Self {
             particles: None,
             trial: setup.bodies.clone(),
-            integrator: Integrator::new(&setup.bodies),
             narrow_phase: NarrowPhase::default(),
             pairs,
             contacts: Vec::new(),
             impacts: BTreeMap::new(),
             time_s: 0.0,
-            substeps: 0,
+            motion,
             setup,
         }
     }
 
     /// The same with particles, which start at time 0 as well.
     #[must_use]
-    pub fn with_particles(self, particles: Motion<T>) -> Self {
+    pub fn with_particles(self, particles: particle::Motion<T>) -> Self {
         Self { particles: Some(particles), ..self }
     }
 
@@ -118,7 +111,7 @@ impl<T: Real> World<T> {
 
     /// The particles, if there are any.
     #[must_use]
-    pub fn particles(&self) -> Option<&Motion<T>> {
+    pub fn particles(&self) -> Option<&particle::Motion<T>> {
         self.particles.as_ref()
     }
 
@@ -133,38 +126,32 @@ impl<T: Real> World<T> {
         &self.setup.bodies
     }
 
-    /// Masses and inertias.
+    /// How they move: masses, forces, joints, and what it has cost, the search for impacts included.
     #[must_use]
-    pub fn inertias(&self) -> &[Inertia<T>] {
-        &self.setup.inertias
-    }
-
-    /// The substeps of the integrator so far, those of the search for impacts included.
-    #[must_use]
-    pub fn substeps(&self) -> u64 {
-        self.substeps
+    pub fn motion(&self) -> &Motion<T> {
+        &self.motion
     }
 
     /// Energy and momenta.
     #[must_use]
     pub fn totals(&self) -> Totals {
-        let mut sums = totals(&self.setup.bodies, &self.setup.inertias, self.setup.forces.gravity);
-        sums += self.particles.as_ref().map(Motion::totals).unwrap_or_default();
+        let mut sums = self.motion.totals(&self.setup.bodies);
+        sums += self.particles.as_ref().map(particle::Motion::totals).unwrap_or_default();
         sums
     }
 
     /// The pairs that overlap in the state as it is, and how deep, m: for a scene at its start, there must be none.
     pub fn overlaps(&mut self) -> Vec<(usize, usize, T)> {
-        let Setup { bodies, inertias, colliders, .. } = &self.setup;
-        let all = Scenery { bodies, inertias, colliders };
+        let Setup { bodies, colliders, .. } = &self.setup;
+        let all = Scenery { bodies, inertias: self.motion.inertias(), colliders };
         let found = self.pairs.iter().filter_map(|pair| Some((pair.0, pair.1, self.narrow_phase.overlap(all, *pair)?)));
         found.collect()
     }
 
     /// The contacts of the trial state.
     fn detect(&mut self, reach: Reach) {
-        let Setup { inertias, colliders, .. } = &self.setup;
-        let all = Scenery { bodies: &self.trial, inertias, colliders };
+        let inertias = self.motion.inertias();
+        let all = Scenery { bodies: &self.trial, inertias, colliders: &self.setup.colliders };
         self.contacts.clear();
         for pair in &self.pairs {
             self.narrow_phase.contacts(all, *pair, reach, &mut self.contacts);
@@ -175,8 +162,8 @@ impl<T: Real> World<T> {
     /// are on their way out of the last impact.
     fn collides(&mut self) -> bool {
         self.detect(Reach::Overlapping);
-        let Setup { inertias, colliders, .. } = &self.setup;
-        let all = Scenery { bodies: &self.trial, inertias, colliders };
+        let inertias = self.motion.inertias();
+        let all = Scenery { bodies: &self.trial, inertias, colliders: &self.setup.colliders };
         let collides = |contact: &Contact<T>| {
             -contact.separation > all.slack(contact.a, contact.b) || contact.approaches(all.bodies, inertias)
         };
@@ -184,12 +171,9 @@ impl<T: Real> World<T> {
     }
 
     /// Advances the trial state from the good one.
-    fn try_advance(&mut self, dt_s: f64) -> Result<(), AdvanceError> {
-        self.trial.clone_from(&self.setup.bodies);
-        let Setup { inertias, forces, .. } = &self.setup;
-        let substeps = self.integrator.advance(&mut self.trial, inertias, forces, self.time_s, dt_s)?;
-        self.substeps += substeps as u64;
-        Ok(())
+    fn try_advance(&mut self, dt_s: f64) -> Result<(), OdeError<MotionError>> {
+        self.trial.assign(&self.setup.bodies);
+        self.motion.advance(&mut self.trial, self.time_s, dt_s)
     }
 
     fn accept(&mut self, time_s: f64) {
@@ -248,7 +232,8 @@ impl<T: Real> World<T> {
         events: &mut Vec<Event>,
     ) -> Result<(), SimulationError> {
         for (a, b, speed) in approaches {
-            let all = Scenery { bodies: &self.trial, inertias: &self.setup.inertias, colliders: &self.setup.colliders };
+            let all =
+                Scenery { bodies: &self.trial, inertias: self.motion.inertias(), colliders: &self.setup.colliders };
             let slack = all.slack(*a, *b).to_f64();
             let (last_s, count) = self.impacts.entry((*a, *b)).or_insert((f64::NEG_INFINITY, 0));
             let apart = speed.to_f64() * (self.time_s - *last_s) >= slack;
@@ -272,7 +257,7 @@ impl<T: Real> World<T> {
     fn impact(&mut self, span_s: f64, width: f64, events: &mut Vec<Event>) -> Result<(), SimulationError> {
         let bracket = collision::first_overlap(width.min(1.0), |fraction| {
             self.try_advance(fraction * span_s)?;
-            Ok::<bool, AdvanceError>(self.collides())
+            Ok::<bool, OdeError<MotionError>>(self.collides())
         })?;
         // Features are read where the bodies overlap, impulses applied where they are still apart. If nothing approaches
         // there yet by more than rounding, the bodies go on to where it does.
@@ -280,7 +265,7 @@ impl<T: Real> World<T> {
         self.detect(Reach::Simultaneous);
         self.try_advance(bracket.separated * span_s)?;
         let apart = self.contacts.iter().map(|contact| contact.anchored(&self.trial));
-        let apart_approaches = apart.clone().any(|contact| contact.approaches(&self.trial, &self.setup.inertias));
+        let apart_approaches = apart.clone().any(|contact| contact.approaches(&self.trial, self.motion.inertias()));
         if apart_approaches {
             self.contacts = apart.collect();
             self.accept(self.time_s + bracket.separated * span_s);
@@ -289,8 +274,8 @@ impl<T: Real> World<T> {
             self.accept(self.time_s + bracket.overlapping * span_s);
         }
         let approaches = self.approaches();
-        let Setup { bodies, inertias, restitution, .. } = &mut self.setup;
-        let impulses = collision::resolve(&self.contacts, bodies, inertias, *restitution);
+        let Setup { bodies, restitution, .. } = &mut self.setup;
+        let impulses = collision::resolve(&self.contacts, bodies, self.motion.inertias(), *restitution);
         let bodies = &self.setup.bodies;
         let impact = |impulse: &collision::Impulse<T>| {
             Event::new(self.time_s, EventKind::Impact, &impulse.contact, bodies, impulse.magnitude)
@@ -301,7 +286,7 @@ impl<T: Real> World<T> {
 
     /// The pairs in contact, each once, with the fastest approach at any of their contacts.
     fn approaches(&self) -> Vec<(usize, usize, T)> {
-        let Setup { bodies, inertias, .. } = &self.setup;
+        let (bodies, inertias) = (&self.setup.bodies, self.motion.inertias());
         let mut fastest: BTreeMap<(usize, usize), T> = BTreeMap::new();
         for contact in &self.contacts {
             let speed = contact.approach_speed(bodies, inertias);

@@ -14,9 +14,9 @@ use crate::geometry::mass_properties::{MassProperties, mass_properties};
 use crate::geometry::mesh::Mesh;
 use crate::geometry::mesh_checks::{self, Severity};
 use crate::io::mesh_file::read_mesh;
-use crate::rigid::{Bodies, Force, Forces, Inertia};
+use crate::rigid::{self, Bodies, Force, Forces, Inertia, Motion, Solver};
 use crate::scene::description::{self, Body, Orientation, Scene, Shape};
-use crate::scene::{Diagnostic, Numbers, SceneSource, solids};
+use crate::scene::{Diagnostic, Numbers, SceneSource, plan, solids};
 use crate::simulation::{Setup, World};
 use std::ops::Range;
 
@@ -34,8 +34,12 @@ pub enum Look {
 /// A scene that is ready to run.
 #[derive(Clone, Debug)]
 pub struct Built<T> {
-    /// Bodies, forces, contact.
+    /// Bodies at the start, contact.
     pub setup: Setup<T>,
+    /// What the bodies are subject to.
+    pub subject: rigid::Setup<T>,
+    /// How their motion is solved.
+    pub body_solver: Solver,
     /// How each body looks.
     pub looks: Vec<Look>,
     /// The particles, if there are any.
@@ -59,27 +63,31 @@ type Found<T> = Result<T, Diagnostic>;
 pub fn build<T: Real>(scene: &Scene, source: &SceneSource) -> Result<Built<T>, Vec<Diagnostic>> {
     let mut setup = Setup {
         bodies: Bodies::default(),
-        inertias: vec![],
         colliders: vec![],
-        forces: forces(scene),
         restitution: T::from_f64(*scene.contact.restitution.get_ref()),
     };
+    let mut subject = rigid::Setup { inertias: vec![], forces: forces(scene), joints: vec![] };
+    let body_solver = Solver::fixed(rigid::Method::Yoshida6, plan::interval_s(scene));
     let (mut looks, mut mistakes) = (vec![], vec![]);
     for body in &scene.body {
-        match build_body(body, source, &mut setup) {
+        match build_body(body, source, &mut setup, &mut subject) {
             Ok(look) => looks.push(look),
             Err(mistake) => mistakes.push(mistake),
         }
     }
     if mistakes.is_empty() {
-        mistakes = overlaps(scene, &setup);
+        mistakes = overlaps(scene, &setup, &subject, &body_solver);
     }
     let particles = particles::build(scene).map_err(|mistake| mistakes.push(mistake)).ok().flatten();
-    if mistakes.is_empty() { Ok(Built { setup, looks, particles }) } else { Err(mistakes) }
+    if mistakes.is_empty() { Ok(Built { setup, subject, body_solver, looks, particles }) } else { Err(mistakes) }
 }
 
-fn overlaps<T: Real>(scene: &Scene, setup: &Setup<T>) -> Vec<Diagnostic> {
-    let overlaps = World::new(setup.clone()).overlaps();
+fn overlaps<T: Real>(scene: &Scene, setup: &Setup<T>, subject: &rigid::Setup<T>, solver: &Solver) -> Vec<Diagnostic> {
+    let motion = match Motion::new(subject.clone(), &setup.bodies, solver) {
+        Ok(motion) => motion,
+        Err(error) => return vec![Diagnostic::new(error.to_string())],
+    };
+    let overlaps = World::new(setup.clone(), motion).overlaps();
     let names = |index: usize| scene.body[index].name.get_ref();
     let report = |(a, b, depth): (usize, usize, T)| {
         Diagnostic::new(format!("bodies `{}` and `{}` overlap at the start", names(a), names(b)))
@@ -90,7 +98,12 @@ fn overlaps<T: Real>(scene: &Scene, setup: &Setup<T>) -> Vec<Diagnostic> {
     overlaps.into_iter().map(report).collect()
 }
 
-fn build_body<T: Real>(body: &Body, source: &SceneSource, setup: &mut Setup<T>) -> Found<Look> {
+fn build_body<T: Real>(
+    body: &Body,
+    source: &SceneSource,
+    setup: &mut Setup<T>,
+    subject: &mut rigid::Setup<T>,
+) -> Found<Look> {
     let name_span = body.name.span();
     let solid = body.shape.as_ref().map(|shape| solid(shape, *body.scale.get_ref(), source)).transpose()?;
     let inertia_matrix = match (&body.inertia_kg_m2, &solid) {
@@ -103,7 +116,7 @@ fn build_body<T: Real>(body: &Body, source: &SceneSource, setup: &mut Setup<T>) 
     };
     let inertia = match (&body.mass_kg, &inertia_matrix) {
         (Some(mass), Some((matrix, span))) if !body.fixed => {
-            let failed = |error: crate::rigid::BodyError| Diagnostic::new(error.to_string()).at(span.clone());
+            let failed = |error: rigid::InertiaError| Diagnostic::new(error.to_string()).at(span.clone());
             Inertia::new(*mass.get_ref(), *matrix).map_err(failed)?
         }
         _ => Inertia::immovable(),
@@ -124,7 +137,7 @@ fn build_body<T: Real>(body: &Body, source: &SceneSource, setup: &mut Setup<T>) 
     let velocity = Vector::from(body.velocity_m_s.get_ref().0).map(T::from_f64);
     let angular_momentum = rotor.apply(inertia.momentum_of(omega_body));
     setup.bodies.push(Point::from(body.position_m.get_ref().0), rotor, velocity * inertia.mass, angular_momentum);
-    setup.inertias.push(inertia);
+    subject.inertias.push(inertia);
     setup.colliders.push(collider);
     match solid {
         Some(Solid::Mesh { mesh, .. }) => Ok(Look::Mesh(mesh)),

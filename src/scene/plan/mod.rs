@@ -9,7 +9,6 @@ pub use steps::{DEFAULT_RECORD_HZ, adapts, chooses_steps, interval_s, record_hz,
 
 use crate::particle::Particles;
 use crate::rigid::Bodies;
-use crate::rigid::rotor::MAX_TURN_RAD;
 use crate::scene::description::{Body, Force, Scalar, Scene, Shape};
 use particles::Census;
 use serde::Serialize;
@@ -54,10 +53,8 @@ pub struct Plan {
     pub steps: u64,
     /// The length of all but the last step, s; where the method chooses them, the largest; null if there is none.
     pub dt_s: Option<f64>,
-    /// The fastest spin at the start, rad/s: sets the substeps.
+    /// The fastest spin at the start, rad/s.
     pub fastest_spin_rad_s: f64,
-    /// Substeps of bodies a step, at the spin of the start.
-    pub substeps_per_step: u64,
     /// State of one body, bytes.
     pub state_bytes_per_body: usize,
     /// State of one particle, bytes.
@@ -78,14 +75,11 @@ pub fn plan(scene: &Scene) -> Plan {
     let moving: Vec<&Body> = scene.body.iter().filter(|body| !body.fixed).collect();
     let fastest_spin_rad_s = moving.iter().map(|body| spin(body)).fold(0.0, f64::max);
     let dt_s = scene.dt_s.as_ref().map(|dt| *dt.get_ref());
-    let wanted = (fastest_spin_rad_s * dt_s.unwrap_or_default() / MAX_TURN_RAD).ceil().max(1.0);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, and is a forecast only")]
-    let substeps_per_step = wanted as u64;
     let steps = steps(scene);
     let census = Census::of(scene);
     let particle_solver = (census.particles > 0).then(|| solver::choose(scene, &census));
     let evals_per_step = particle_solver.as_ref().and_then(SolverPlan::evals_per_step);
-    let per_step = if scene.body.is_empty() { 0 } else { 4 };
+    let per_step = if scene.body.is_empty() { 0 } else { 7 };
     let f64_scalar = scene.solver.scalar == Scalar::F64;
     let mut plan = Plan {
         bodies: scene.body.len(),
@@ -98,7 +92,6 @@ pub fn plan(scene: &Scene) -> Plan {
         steps,
         dt_s,
         fastest_spin_rad_s,
-        substeps_per_step,
         state_bytes_per_body: if f64_scalar {
             Bodies::<f64>::bytes_per_body()
         } else {
@@ -109,7 +102,7 @@ pub fn plan(scene: &Scene) -> Plan {
         } else {
             Particles::<f32>::bytes_per_particle()
         },
-        expected_rhs_evals: steps.saturating_mul(substeps_per_step).saturating_mul(per_step),
+        expected_rhs_evals: steps.saturating_mul(per_step),
         expected_particle_evals: evals_per_step.map(|evals| steps.saturating_mul(evals)),
         modelled: vec![],
         left_out: vec![],
@@ -205,13 +198,7 @@ impl Plan {
         };
         write!(f, "  {:<18} {steps}", "steps")?;
         if self.bodies > 0 {
-            let substeps = if self.substeps_per_step == 1 { "substep" } else { "substeps" };
             line(f, "bodies", &with(self.bodies, self.moving_bodies, self.state_bytes_per_body))?;
-            line(
-                f,
-                "substeps",
-                &format!("{} {substeps} a step at {:.3} rad/s", self.substeps_per_step, self.fastest_spin_rad_s),
-            )?;
             line(f, "rhs evaluations", &format!("{} of all bodies, impacts apart", self.expected_rhs_evals))?;
         }
         if self.particles > 0 {

@@ -1,0 +1,55 @@
+//! Why bodies cannot be set in motion, or cannot go on.
+
+use super::{Form, Method, OrientationLost};
+use crate::ode::{StepError, ToleranceError};
+use thiserror::Error;
+
+/// Why a step cannot be made.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum MotionError {
+    /// The orientation of a body is none any more.
+    #[error("at {time_s} s: {source}")]
+    Orientation {
+        /// When.
+        time_s: f64,
+        /// Which.
+        source: OrientationLost,
+    },
+    /// Too fast a spin for the step.
+    #[error(
+        "at {time_s} s body {body_idx} turns by {turn_rad:e} rad in a step of {dt_s} s, too far for a Runge-Kutta method: \
+         take a smaller `dt_s`, or a method on the exact free motion (`verlet`, `yoshida4`, `yoshida6`)"
+    )]
+    Spin {
+        /// The body.
+        body_idx: usize,
+        /// When.
+        time_s: f64,
+        /// How far.
+        turn_rad: f64,
+        /// The step.
+        dt_s: f64,
+    },
+}
+
+/// Why a solver cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum SolverError {
+    /// The method is none for the formulation.
+    #[error("`{}` does not integrate the {} form: choose `rk4`, `tsit5` or `dop853`, or the rotor form", .method.name(), .form.name())]
+    DoesNotFit {
+        /// The method.
+        method: Method,
+        /// The formulation.
+        form: Form,
+    },
+    /// Error control without an error estimate.
+    #[error("`{}` does not estimate its error and needs a fixed step", .0.name())]
+    NotAdaptive(Method),
+    /// The step.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// The tolerance.
+    #[error(transparent)]
+    Tolerance(#[from] ToleranceError),
+}

@@ -1,0 +1,206 @@
+//! Ways to take bodies over a span of time. Each is a map: it goes on from whatever state it is given, so that a search for
+//! impacts can try spans from one state.
+
+use super::{Bodies, Formulation, Inertia, MotionError, System, Wrenches};
+use crate::algebra::Real;
+use crate::ode::{self, Composition, OdeError, RungeKutta, Stepper, Tableau, Work};
+
+/// A map of bodies over spans in which no force switches.
+pub(super) trait Advance<T: Real>: Send + Sync {
+    /// Takes bodies from a time over a span, s.
+    fn advance(
+        &mut self,
+        system: &mut System<T>,
+        bodies: &mut Bodies<T>,
+        t_s: f64,
+        span_s: f64,
+    ) -> Result<(), OdeError<MotionError>>;
+
+    /// What it has cost.
+    fn work(&self) -> Work;
+}
+
+/// A span longer than whole steps by no more than this many eps of itself is made of whole steps.
+const WHOLE_EPS: f64 = 8.0;
+
+/// How many steps of at most `dt_s` make a span, and how long they are.
+fn divide(span_s: f64, dt_s: f64) -> (u64, f64) {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a positive number of steps, saturating"
+    )]
+    let count = ((span_s / dt_s) * (1.0 - WHOLE_EPS * f64::EPSILON)).ceil().max(1.0) as u64;
+    (count, span_s / count as f64)
+}
+
+/// The largest turn in a step of a Runge-Kutta method, rad, of the body or of its angular velocity within it. RK4 is stable to
+/// 2.8 and errs by `(1/2)^5 / 120` here, 3e-4 rad a step.
+const MAX_TURN_RAD: f64 = 1.0;
+
+/// Refuses steps in which a body turns too far, or its momentum in the body frame, which goes round at up to `|L| / I_min`.
+fn check_turns<T: Real>(
+    bodies: &Bodies<T>,
+    inertias: &[Inertia<T>],
+    time_s: f64,
+    dt_s: f64,
+) -> Result<(), MotionError> {
+    for (body_idx, inertia) in inertias.iter().enumerate().filter(|(_, inertia)| !inertia.is_immovable()) {
+        let momentum = bodies.angular_momentum[body_idx].map(Real::to_f64).norm_sq().sqrt();
+        let turn_rad = dt_s.abs() * momentum / inertia.principal.moments[0];
+        // For a slender body that spins about its long axis this is its spin; for one that tumbles it is far more.
+        if !(turn_rad <= MAX_TURN_RAD) {
+            return Err(MotionError::Spin { body_idx, time_s, turn_rad, dt_s });
+        }
+    }
+    Ok(())
+}
+
+/// A Runge-Kutta method with steps of one length at most.
+pub(super) struct FixedSteps<M: Tableau, F: Formulation<T>, T: Real> {
+    method: RungeKutta<M, F, T>,
+    state: F,
+    dt_s: f64,
+    work: Work,
+}
+
+impl<M: Tableau, F: Formulation<T>, T: Real> FixedSteps<M, F, T>
+where
+    F::Rate: Clone,
+{
+    pub(super) fn new(bodies: &Bodies<T>, dt_s: f64) -> Self {
+        let state = F::from_bodies(bodies);
+        Self { method: RungeKutta::new(state.clone(), state.zero_rates()), state, dt_s, work: Work::default() }
+    }
+}
+
+impl<M: Tableau, F: Formulation<T>, T: Real> Advance<T> for FixedSteps<M, F, T>
+where
+    Self: Send + Sync,
+{
+    fn advance(
+        &mut self,
+        system: &mut System<T>,
+        bodies: &mut Bodies<T>,
+        t_s: f64,
+        span_s: f64,
+    ) -> Result<(), OdeError<MotionError>> {
+        let (count, h_s) = divide(span_s, self.dt_s);
+        check_turns(bodies, &system.setup.inertias, t_s, h_s).map_err(OdeError::System)?;
+        self.state.read_from(bodies);
+        for index in 0..count {
+            let start_s = t_s + h_s * index as f64;
+            self.method.step(&mut self.state, start_s, h_s, system).map_err(OdeError::System)?;
+            let settled = ode::System::<F, T>::settle(system, start_s + h_s, &mut self.state);
+            settled.map_err(OdeError::System)?;
+        }
+        self.work.accepted += count;
+        self.work.rhs_evals += count * (1 + M::COEFFICIENTS.stages.len() as u64);
+        self.state.write_to(bodies);
+        Ok(())
+    }
+
+    fn work(&self) -> Work {
+        self.work
+    }
+}
+
+/// A stepper that chooses its steps. It goes on from within its last step where it is asked to go on from where it was.
+pub(super) struct AdaptiveSteps<S, F, T> {
+    stepper: S,
+    out: F,
+    /// When and with what the last span ended.
+    last: Option<(f64, Bodies<T>)>,
+}
+
+impl<S, F: Formulation<T>, T: Real> AdaptiveSteps<S, F, T> {
+    pub(super) fn new(stepper: S, bodies: &Bodies<T>) -> Self {
+        Self { stepper, out: F::from_bodies(bodies), last: None }
+    }
+}
+
+/// The time of a state that is gone on from differs from its end by the rounding of sums.
+const SAME_TIME_EPS: f64 = 8.0;
+
+/// Whether a state at a time is where another ended.
+pub(super) fn goes_on<T: Real>(last: &Option<(f64, Bodies<T>)>, t_s: f64, bodies: &Bodies<T>) -> bool {
+    let same_time = |at_s: f64| (at_s - t_s).abs() <= SAME_TIME_EPS * f64::EPSILON * t_s.abs();
+    last.as_ref().is_some_and(|(at_s, state)| same_time(*at_s) && state == bodies)
+}
+
+impl<S, F, T: Real> Advance<T> for AdaptiveSteps<S, F, T>
+where
+    F: Formulation<T>,
+    S: Stepper<System<T>, State = F, Error = MotionError>,
+    Self: Send + Sync,
+{
+    fn advance(
+        &mut self,
+        system: &mut System<T>,
+        bodies: &mut Bodies<T>,
+        t_s: f64,
+        span_s: f64,
+    ) -> Result<(), OdeError<MotionError>> {
+        let from_s = match &self.last {
+            Some((at_s, _)) if goes_on(&self.last, t_s, bodies) => *at_s,
+            _ => {
+                self.out.read_from(bodies);
+                self.stepper.restart(t_s, &self.out);
+                t_s
+            }
+        };
+        let end_s = from_s + span_s;
+        self.last = None;
+        self.stepper.advance_to(system, end_s, &mut self.out)?;
+        self.out.write_to(bodies);
+        self.last = Some((end_s, bodies.clone()));
+        Ok(())
+    }
+
+    fn work(&self) -> Work {
+        self.stepper.work()
+    }
+}
+
+/// Free motions and kicks in turn.
+pub(super) struct Composed<T> {
+    composition: Composition,
+    first: Wrenches<T>,
+    last: Wrenches<T>,
+    dt_s: f64,
+    work: Work,
+}
+
+impl<T: Real> Composed<T> {
+    pub(super) fn new(composition: Composition, bodies: usize, dt_s: f64) -> Self {
+        let wrenches = Wrenches::zeros(bodies);
+        Self { composition, first: wrenches.clone(), last: wrenches, dt_s, work: Work::default() }
+    }
+}
+
+impl<T: Real> Advance<T> for Composed<T> {
+    fn advance(
+        &mut self,
+        system: &mut System<T>,
+        bodies: &mut Bodies<T>,
+        t_s: f64,
+        span_s: f64,
+    ) -> Result<(), OdeError<MotionError>> {
+        let (count, h_s) = divide(span_s, self.dt_s);
+        system.wrenches(bodies, &mut self.first);
+        for index in 0..count {
+            let start_s = t_s + h_s * index as f64;
+            let span = (start_s, h_s);
+            let done = self.composition.apply(system, span, bodies, &self.first, &mut self.last);
+            done.map_err(OdeError::System)?;
+            core::mem::swap(&mut self.first, &mut self.last);
+        }
+        self.work.accepted += count;
+        self.work.rhs_evals += 1 + count * self.composition.weights().len() as u64;
+        Ok(())
+    }
+
+    fn work(&self) -> Work {
+        self.work
+    }
+}

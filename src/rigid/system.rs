@@ -1,0 +1,116 @@
+//! The equations of motion of bodies under forces and joints, for every formulation and stepper.
+//!
+//! Runge-Kutta methods see them as rates. Compositions see kicks, `p += h F, L += h tau`, and between them drifts, the free
+//! motion of all bodies: exact, or split into rotations about the principal axes.
+
+use super::{Bodies, Forces, Formulation, Inertia, Joint, Method, MotionError, Wrenches, axis_splitting};
+use crate::algebra::Real;
+use crate::algebra::g3::{Bivector, Rotor};
+use crate::ode;
+use alloc::vec::Vec;
+
+/// What bodies are subject to.
+#[derive(Clone, Debug, Default)]
+pub struct Setup<T> {
+    /// One entry a body.
+    pub inertias: Vec<Inertia<T>>,
+    /// Gravity and other forces.
+    pub forces: Forces<T>,
+    /// Joints.
+    pub joints: Vec<Joint<T>>,
+}
+
+/// The orientation of a free body after a time, from its inertia, orientation and angular momentum.
+pub(super) type Turn<T> = fn(&Inertia<T>, Rotor<T>, Bivector<T>, f64) -> Rotor<T>;
+
+/// Bodies' masses, forces and joints as a right-hand side.
+#[derive(Clone, Debug)]
+pub struct System<T: Real> {
+    pub(super) setup: Setup<T>,
+    /// Indices of the forces that act in the present span.
+    acting: Vec<usize>,
+    wrenches: Wrenches<T>,
+    turn: Turn<T>,
+}
+
+impl<T: Real> System<T> {
+    /// The system of a setup, to be solved by a method. Those forces act that act at time 0.
+    #[must_use]
+    pub fn new(setup: Setup<T>, method: Method) -> Self {
+        let wrenches = Wrenches::zeros(setup.inertias.len());
+        let turn = match method {
+            Method::Splitting2 | Method::Splitting4 | Method::Splitting6 => axis_splitting::turn,
+            _ => axis_splitting::turn,
+        };
+        let mut system = Self { setup, acting: Vec::new(), wrenches, turn };
+        system.select(0.0, 0.0);
+        system
+    }
+
+    /// Masses, forces, joints.
+    #[must_use]
+    pub fn setup(&self) -> &Setup<T> {
+        &self.setup
+    }
+
+    /// Lets those forces act that act in a span; none must switch within it.
+    pub fn select(&mut self, from_s: f64, to_s: f64) {
+        self.acting.clear();
+        let forces = self.setup.forces.forces.iter().enumerate();
+        self.acting.extend(forces.filter(|(_, force)| force.acts_in(from_s, to_s)).map(|(index, _)| index));
+    }
+
+    /// What the forces, without joints, do in a state.
+    pub fn wrenches(&self, state: &impl Formulation<T>, wrenches: &mut Wrenches<T>) {
+        self.setup.forces.wrenches(&self.acting, state, &self.setup.inertias, wrenches);
+    }
+}
+
+impl<T: Real, F: Formulation<T>> ode::System<F, T> for System<T> {
+    type Error = MotionError;
+
+    fn rate(&mut self, _t_s: f64, state: &F, rate: &mut F::Rate) -> Result<(), MotionError> {
+        let Self { setup, acting, wrenches, .. } = self;
+        setup.forces.wrenches(acting, state, &setup.inertias, wrenches);
+        state.rhs(&setup.inertias, wrenches, rate);
+        Ok(())
+    }
+
+    fn settle(&mut self, t_s: f64, state: &mut F) -> Result<bool, MotionError> {
+        state.renormalise().map_err(|source| MotionError::Orientation { time_s: t_s, source })
+    }
+}
+
+impl<T: Real> ode::Mechanics<Bodies<T>, T> for System<T> {
+    type Error = MotionError;
+    type Acceleration = Wrenches<T>;
+
+    fn acceleration(&mut self, _t_s: f64, state: &Bodies<T>, out: &mut Wrenches<T>) -> Result<(), MotionError> {
+        self.wrenches(state, out);
+        Ok(())
+    }
+
+    fn kick(&mut self, state: &mut Bodies<T>, h_s: T, wrenches: &Wrenches<T>) {
+        for (momentum, force) in state.momentum.iter_mut().zip(&wrenches.force) {
+            *momentum += *force * h_s;
+        }
+        for (momentum, torque) in state.angular_momentum.iter_mut().zip(&wrenches.torque) {
+            *momentum += *torque * h_s;
+        }
+    }
+
+    fn drift(&mut self, _t_s: f64, state: &mut Bodies<T>, h_s: T) -> Result<(), MotionError> {
+        drift(self.turn, state, &self.setup.inertias, h_s.to_f64());
+        Ok(())
+    }
+}
+
+/// The free motion of all bodies over a time, s.
+pub(super) fn drift<T: Real>(turn: Turn<T>, bodies: &mut Bodies<T>, inertias: &[Inertia<T>], h_s: f64) {
+    for (body_idx, inertia) in inertias.iter().enumerate().filter(|(_, inertia)| !inertia.is_immovable()) {
+        let velocity = (bodies.momentum[body_idx] * inertia.inv_mass).map(Real::to_f64);
+        bodies.position[body_idx] = bodies.position[body_idx].moved(velocity * h_s);
+        let rotor = &mut bodies.rotor[body_idx];
+        *rotor = turn(inertia, *rotor, bodies.angular_momentum[body_idx], h_s);
+    }
+}
