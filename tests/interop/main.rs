@@ -1,6 +1,5 @@
 //! The generated types and those of other crates: the library's own, and those of algebras declared here, as in the
-//! crate of a user. What belongs to a feature is tested where the feature is on:
-//! `cargo test --test interop --features serde,mint,bytemuck,approx,rand`.
+//! crate of a user. Tests have all features of interoperability.
 // `unsafe impl Pod` of the types below is the library's: it must not meet the lints of the crate that declares them.
 #![forbid(unsafe_code)]
 #![allow(clippy::unwrap_used, clippy::cast_possible_truncation, reason = "a test may panic")]
