@@ -9,6 +9,7 @@ mod energy;
 mod error;
 mod force;
 mod formulation;
+pub mod free;
 mod inertia;
 mod joint;
 mod method;
