@@ -97,6 +97,13 @@ pub trait Scalar:
 pub trait Real: Scalar + PartialOrd + Default + fmt::Debug + fmt::Display + fmt::LowerExp + Send + Sync {
     /// The distance from 1 to the next larger number.
     const EPSILON: Self;
+    /// This number as nalgebra's vectors ask for it: itself. (As a supertrait it would make every `abs` and `sqrt`
+    /// ambiguous.)
+    type Field: nalgebra::RealField + Copy + Send + Sync;
+    /// For nalgebra.
+    fn to_field(self) -> Self::Field;
+    /// From nalgebra.
+    fn from_field(field: Self::Field) -> Self;
     /// Rounds from `f64`.
     fn from_f64(value: f64) -> Self;
     /// Exact, for both scalars.
@@ -163,6 +170,15 @@ macro_rules! implement {
 
         impl Real for $float {
             const EPSILON: Self = $float::EPSILON;
+            type Field = Self;
+            #[inline(always)]
+            fn to_field(self) -> Self {
+                self
+            }
+            #[inline(always)]
+            fn from_field(field: Self) -> Self {
+                field
+            }
             #[inline]
             #[allow(clippy::cast_possible_truncation, reason = "rounding to f32 is what the caller asks for")]
             fn from_f64(value: f64) -> Self {

@@ -12,8 +12,12 @@ mod formulation;
 pub mod free;
 mod inertia;
 mod joint;
+#[cfg(feature = "study")]
+pub mod matrix;
 mod method;
 mod motion;
+pub mod motor;
+pub mod quaternion;
 pub mod rotor;
 mod stepping;
 mod system;
