@@ -70,6 +70,7 @@ mod error;
 mod event;
 mod fixed;
 mod leap;
+pub mod lie;
 pub mod root;
 mod runge_kutta;
 mod segment;

@@ -12,6 +12,7 @@ mod formulation;
 pub mod free;
 mod inertia;
 mod joint;
+pub mod lie;
 #[cfg(feature = "study")]
 pub mod matrix;
 mod method;
