@@ -8,7 +8,8 @@ use ga_physics::algebra::g3::{Bivector, Rotor, Vector};
 use ga_physics::ode::{OdeError, Rk4, RungeKutta};
 use ga_physics::rigid::rotor::{self, Rates};
 use ga_physics::rigid::{
-    Bodies, Force, Forces, Inertia, InertiaError, Method, Motion, MotionError, Setup, Solver, Wrenches, totals,
+    Attachment, Bodies, Force, Forces, Inertia, InertiaError, Method, Motion, MotionError, Setup, Solver, SolverError,
+    Wrenches, totals,
 };
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -256,5 +257,110 @@ fn principal_axes_make_the_inertia_diagonal() {
         let along = inertia.principal.axes.apply(Bivector::from(unit));
         let off = inertia.momentum_of(along) - along * inertia.principal.moments[axis];
         assert!(off.norm_sq().sqrt() < 4e-15, "axis {axis}: {off:?}");
+    }
+}
+
+/// Two bodies of unlike inertia, thrown and spinning, in gravity.
+fn thrown() -> (Bodies<f64>, Vec<Inertia<f64>>, Forces<f64>) {
+    let (mut bodies, mut inertias) = spinning(1.0, [1.0, 2.0, 2.5], [0.3, 2.0, 0.1]);
+    let (second, inertia) = spinning(0.5, [0.3, 0.2, 0.4], [1.0, -0.2, 3.0]);
+    bodies.push(Point::new(1.0, 2.0, 3.0), second.rotor[0], Vector::new(0.2, 0.1, 0.5), second.angular_momentum[0]);
+    bodies.momentum[0] = Vector::new(-0.3, 0.4, 2.0);
+    inertias.extend(inertia);
+    (bodies, inertias, Forces { gravity: Vector::new(0.0, 0.0, -9.81), forces: vec![] })
+}
+
+fn distance(a: &Bodies<f64>, b: &Bodies<f64>) -> f64 {
+    let body = |i: usize| {
+        let turn = (a.rotor[i].rev() * b.rotor[i]).log().norm_sq().sqrt();
+        let momenta = (a.momentum[i] - b.momentum[i]).norm_sq().sqrt()
+            + (a.angular_momentum[i] - b.angular_momentum[i]).norm_sq().sqrt();
+        a.position[i].distance_sq_to(b.position[i]).sqrt() + turn + momenta
+    };
+    (0..a.len()).map(body).sum()
+}
+
+#[test]
+fn free_flight_is_where_small_steps_lead_to_and_can_be_tried_again() {
+    let (start, inertias, forces) = thrown();
+    let setup = Setup { inertias, forces, joints: vec![] };
+    let mut flight = Motion::new(setup.clone(), &start, &Solver::fixed(Method::FreeFlight, 1.0)).unwrap();
+    let mut steps = Motion::new(setup.clone(), &start, &Solver::fixed(Method::Splitting6, 0.002)).unwrap();
+    let (mut flown, mut stepped) = (start.clone(), start.clone());
+    for second in 0..3 {
+        flight.advance(&mut flown, f64::from(second), 1.0).unwrap();
+        steps.advance(&mut stepped, f64::from(second), 1.0).unwrap();
+    }
+    assert!(distance(&flown, &stepped) < 1e-10, "{:e}", distance(&flown, &stepped));
+    // Spans from one state, as a search for impacts tries them: the last is as if it were the only one.
+    let once = flown.clone();
+    for span in [0.5, 0.25, 0.3] {
+        flown.clone_from(&once);
+        flight.advance(&mut flown, 3.0, span).unwrap();
+    }
+    steps.advance(&mut stepped, 3.0, 0.3).unwrap();
+    assert!(distance(&flown, &stepped) < 1e-10);
+    // A state that it does not know is a new start.
+    flown.angular_momentum[0] = -flown.angular_momentum[0];
+    stepped.clone_from(&flown);
+    flight.advance(&mut flown, 3.3, 1.0).unwrap();
+    steps.advance(&mut stepped, 3.3, 1.0).unwrap();
+    assert!(distance(&flown, &stepped) < 1e-10);
+
+    let push = Force::Torque { body_idx: 0, torque_world: Bivector::default(), start_s: 0.0, end_s: 1.0 };
+    let setup = Setup { forces: Forces { forces: vec![push], ..setup.forces }, ..setup };
+    let refused = Motion::new(setup, &start, &Solver::fixed(Method::FreeFlight, 1.0)).err();
+    assert_eq!(refused, Some(SolverError::NotFree));
+}
+
+#[test]
+fn bodies_solved_in_two_ways_move_as_if_alone_and_must_not_be_linked() {
+    let (start, inertias, mut forces) = thrown();
+    forces.forces.push(Force::LinearDrag { body_idx: 1, k: 0.1, k_angular: 0.01 });
+    let setup = Setup { inertias, forces, joints: vec![] };
+    let (first, second) = (Solver::fixed(Method::Yoshida4, 0.01), Solver::fixed(Method::Dop853, 0.02));
+    let alone = |solver: &Solver| {
+        let (mut bodies, mut motion) = (start.clone(), Motion::new(setup.clone(), &start, solver).unwrap());
+        (0..10).for_each(|step| motion.advance(&mut bodies, f64::from(step) * 0.02, 0.02).unwrap());
+        bodies
+    };
+    let mut motion = Motion::mixed(setup.clone(), &start, &[(first, vec![0]), (second, vec![1])]).unwrap();
+    let mut bodies = start.clone();
+    (0..10).for_each(|step| motion.advance(&mut bodies, f64::from(step) * 0.02, 0.02).unwrap());
+    assert_eq!((bodies.rotor[0], bodies.position[0]), (alone(&first).rotor[0], alone(&first).position[0]));
+    assert_eq!((bodies.rotor[1], bodies.position[1]), (alone(&second).rotor[1], alone(&second).position[1]));
+
+    let end = |body_idx| Attachment::Body { body_idx, at_body: Vector::default() };
+    let spring = Force::Spring { a: end(0), b: end(1), stiffness: 1.0, damping: 0.0, rest_length: 1.0 };
+    let forces = Forces { forces: vec![spring], ..setup.forces };
+    let linked = Motion::mixed(Setup { forces, ..setup }, &start, &[(first, vec![0]), (second, vec![1])]).err();
+    assert_eq!(linked, Some(SolverError::Linked { a: 0, b: 1 }));
+}
+
+#[test]
+fn springs_keep_energy_and_momenta_and_damped_ones_lose_energy_only() {
+    let (mut start, inertias, _) = thrown();
+    start.position[1] = Point::new(1.0, 0.5, 0.0);
+    let end = |body_idx, at| Attachment::Body { body_idx, at_body: at };
+    let (a, b) = (end(0, Vector::new(0.1, 0.2, 0.0)), end(1, Vector::new(0.0, -0.3, 0.1)));
+    for damping in [0.0, 0.5] {
+        let spring = Force::Spring { a, b, stiffness: 20.0, damping, rest_length: 0.7 };
+        let setup = Setup {
+            inertias: inertias.clone(),
+            forces: Forces { forces: vec![spring], ..Forces::default() },
+            joints: vec![],
+        };
+        let mut motion = Motion::new(setup, &start, &Solver::fixed(Method::Dop853, 0.01)).unwrap();
+        let (mut bodies, before) = (start.clone(), motion.totals(&start));
+        (0..200).for_each(|step| motion.advance(&mut bodies, f64::from(step) * 0.01, 0.01).unwrap());
+        let after = motion.totals(&bodies);
+        let change = after.energy() - before.energy();
+        if damping == 0.0 {
+            assert!(change.abs() < 1e-11, "{change:e}")
+        } else {
+            assert!(change < -0.01, "{change:e}")
+        }
+        assert!((after.momentum - before.momentum).norm_sq().sqrt() < 1e-13);
+        assert!((after.angular_momentum - before.angular_momentum).norm_sq().sqrt() < 1e-12);
     }
 }

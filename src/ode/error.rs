@@ -79,7 +79,7 @@ pub struct StepError {
 }
 
 impl StepError {
-    pub(super) fn check(step_s: f64) -> Result<f64, Self> {
+    pub(crate) fn check(step_s: f64) -> Result<f64, Self> {
         if step_s > 0.0 && step_s.is_finite() { Ok(step_s) } else { Err(Self { step_s }) }
     }
 }

@@ -53,6 +53,20 @@ impl<T: Real> Bodies<T> {
         self.angular_momentum.push(angular_momentum);
     }
 
+    /// Takes over the state of one body.
+    pub(super) fn assign_body(&mut self, body_idx: usize, other: &Self) {
+        self.position[body_idx] = other.position[body_idx];
+        self.rotor[body_idx] = other.rotor[body_idx];
+        self.momentum[body_idx] = other.momentum[body_idx];
+        self.angular_momentum[body_idx] = other.angular_momentum[body_idx];
+        if let Some(matrix) = other.matrix.get(body_idx) {
+            if self.matrix.is_empty() {
+                self.matrix.clone_from(&other.matrix);
+            }
+            self.matrix[body_idx] = *matrix;
+        }
+    }
+
     /// Moves a body and turns it by a rotation vector about its centre of mass, world, rad, as a bivector.
     pub fn displace(&mut self, body_idx: usize, by: Vector<f64>, turn: Bivector<f64>) {
         self.position[body_idx] = self.position[body_idx].moved(by);

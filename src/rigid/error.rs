@@ -43,6 +43,22 @@ pub enum SolverError {
         /// The formulation.
         form: Form,
     },
+    /// The matrix form in a build without it.
+    #[error("the matrix form is there for studies: build with feature `study`")]
+    ForStudies,
+    /// Free flight with something in its way.
+    #[error(
+        "`free_flight` is for bodies under uniform gravity alone, without other forces and joints: choose `yoshida4`"
+    )]
+    NotFree,
+    /// Bodies that are solved in different ways, and linked.
+    #[error("bodies {a} and {b} are linked by a force or joint and must be solved alike: give them one formulation")]
+    Linked {
+        /// The first body.
+        a: usize,
+        /// The second body.
+        b: usize,
+    },
     /// Error control without an error estimate.
     #[error("`{}` does not estimate its error and needs a fixed step", .0.name())]
     NotAdaptive(Method),

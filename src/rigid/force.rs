@@ -163,6 +163,17 @@ impl<T: Real> Forces<T> {
 }
 
 impl<T: Real> Force<T> {
+    /// The bodies that it acts on.
+    #[must_use]
+    pub fn bodies(&self) -> [Option<usize>; 2] {
+        match self {
+            Self::AtPoint { body_idx, .. } | Self::Torque { body_idx, .. } | Self::LinearDrag { body_idx, .. } => {
+                [Some(*body_idx), None]
+            }
+            Self::Spring { a, b, .. } => [a.body_idx(), b.body_idx()],
+        }
+    }
+
     /// Does it act in a span that it does not switch within?
     #[must_use]
     pub fn acts_in(&self, from_s: f64, to_s: f64) -> bool {

@@ -1,6 +1,7 @@
 //! Joints: what bodies are held together by.
 
 use super::Attachment;
+use crate::algebra::Real;
 use crate::algebra::g3::Vector;
 
 /// A joint between two points, one of them at least on a body.
@@ -33,4 +34,16 @@ pub enum Joint<T> {
         /// m.
         length: f64,
     },
+}
+
+impl<T: Real> Joint<T> {
+    /// The bodies that it holds together; none at an end in the world.
+    #[must_use]
+    pub fn bodies(&self) -> [Option<usize>; 2] {
+        match self {
+            Self::Ball { a, b } | Self::Hinge { a, b, .. } | Self::Distance { a, b, .. } => {
+                [a.body_idx(), b.body_idx()]
+            }
+        }
+    }
 }

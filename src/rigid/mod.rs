@@ -7,12 +7,13 @@ pub mod axis_splitting;
 mod body;
 mod energy;
 mod error;
+mod flight;
 mod force;
 mod formulation;
 pub mod free;
 mod inertia;
 mod joint;
-pub mod lie;
+mod lie;
 #[cfg(feature = "study")]
 pub mod matrix;
 mod method;

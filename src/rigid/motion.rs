@@ -1,39 +1,80 @@
 //! Bodies in motion: a system with the method that was chosen for it.
 
+use super::flight::Flight;
+#[cfg(feature = "study")]
+use super::matrix;
 use super::stepping::{AdaptiveSteps, Advance, Composed, FixedSteps};
 use super::{
     Bodies, Forces, Form, Formulation, Inertia, Method, MotionError, Setup, Solver, SolverError, Steps, System, Totals,
-    totals,
+    motor, quaternion, totals,
 };
 use crate::algebra::Real;
-use crate::ode::{Adaptive, CashKarp, Dop853, OdeError, Rk4, Rk4Doubling, StepError, Tolerance, Tsit5, Work};
+use crate::ode::lie::{CommutatorFree4, LieRungeKutta, LieState, LieStepper, Rkmk4};
+use crate::ode::{
+    Adaptive, CashKarp, Composition, Dop853, OdeError, Rk4, Rk4Doubling, RungeKutta, State, StepError, Tolerance,
+    Tsit5, Work,
+};
 use alloc::boxed::Box;
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// Bodies that are solved alike.
+struct Part<T: Real> {
+    /// Of these bodies; the others stand still in it.
+    system: System<T>,
+    method: Box<dyn Advance<T>>,
+    /// Which bodies; all of them where there is one part.
+    bodies: Vec<usize>,
+}
 
 /// Bodies that move: takes any state of theirs over any span of time.
 ///
 /// The state is the caller's. What is kept beside it, like the next step of a method that chooses its steps, is used where
 /// the caller goes on from where the last span ended.
 pub struct Motion<T: Real> {
-    system: System<T>,
-    method: Box<dyn Advance<T>>,
-    spans: u64,
+    setup: Setup<T>,
+    parts: Vec<Part<T>>,
+    start: Bodies<T>,
+    moved: Bodies<T>,
 }
 
 impl<T: Real> Motion<T> {
-    /// For as many bodies as there are in a state.
+    /// All bodies solved alike.
     ///
     /// # Errors
     /// A method that does not fit, a step or tolerance that cannot be used.
     pub fn new(setup: Setup<T>, bodies: &Bodies<T>, solver: &Solver) -> Result<Self, SolverError> {
-        if !solver.method.fits(solver.form) {
-            return Err(SolverError::DoesNotFit { method: solver.method, form: solver.form });
+        Self::mixed(setup, bodies, &[(*solver, (0..bodies.len()).collect())])
+    }
+
+    /// Some bodies solved in one way, some in another. Every body is in one list; forces and joints stay within a list.
+    ///
+    /// # Errors
+    /// As [`Motion::new`]; bodies of two lists that something links.
+    pub fn mixed(setup: Setup<T>, bodies: &Bodies<T>, lists: &[(Solver, Vec<usize>)]) -> Result<Self, SolverError> {
+        let mut parts = vec![];
+        for (solver, own) in lists {
+            if !solver.method.fits(solver.form) {
+                return Err(SolverError::DoesNotFit { method: solver.method, form: solver.form });
+            }
+            let system = System::new(setup.of(own)?, solver.method);
+            if solver.method == Method::FreeFlight
+                && !(system.setup.forces.forces.is_empty() && system.setup.joints.is_empty())
+            {
+                return Err(SolverError::NotFree);
+            }
+            let method = match solver.form {
+                #[cfg(feature = "study")]
+                Form::Matrix => linear::<matrix::State<T>, T>(bodies, solver)?,
+                #[cfg(not(feature = "study"))]
+                Form::Matrix => return Err(SolverError::ForStudies),
+                Form::Quaternion => linear::<quaternion::State<T>, T>(bodies, solver)?,
+                Form::Rotor => on_group::<Bodies<T>, T>(bodies, solver)?,
+                Form::Motor => on_group::<motor::State<T>, T>(bodies, solver)?,
+            };
+            parts.push(Part { system, method, bodies: own.clone() });
         }
-        let system = System::new(setup, solver.method);
-        let method = match solver.form {
-            Form::Rotor => method::<Bodies<T>, T>(bodies, solver)?,
-            form => return Err(SolverError::DoesNotFit { method: solver.method, form }),
-        };
-        Ok(Self { system, method, spans: 0 })
+        Ok(Self { setup, parts, start: bodies.clone(), moved: bodies.clone() })
     }
 
     /// Takes bodies from a time over a span, s, in pieces between the times at which forces switch.
@@ -41,35 +82,36 @@ impl<T: Real> Motion<T> {
     /// # Errors
     /// A step that cannot be made. The bodies are then somewhere in between.
     pub fn advance(&mut self, bodies: &mut Bodies<T>, t_s: f64, span_s: f64) -> Result<(), OdeError<MotionError>> {
-        let end_s = t_s + span_s;
-        let mut from_s = t_s;
-        for to_s in self.system.setup.forces.switches_within(t_s, end_s).into_iter().chain([end_s]) {
-            // The only piece is the span itself, not a difference of absolute times, which would lose its digits.
-            let piece_s = if from_s == t_s && to_s == end_s { span_s } else { to_s - from_s };
-            self.system.select(from_s, to_s);
-            self.method.advance(&mut self.system, bodies, from_s, piece_s)?;
-            from_s = to_s;
+        if let [all] = self.parts.as_mut_slice() {
+            return all.advance(bodies, t_s, span_s);
         }
-        self.spans += 1;
+        self.start.assign(bodies);
+        for part in &mut self.parts {
+            self.moved.assign(&self.start);
+            part.advance(&mut self.moved, t_s, span_s)?;
+            for body_idx in &part.bodies {
+                bodies.assign_body(*body_idx, &self.moved);
+            }
+        }
         Ok(())
     }
 
     /// Masses, forces, joints.
     #[must_use]
     pub fn setup(&self) -> &Setup<T> {
-        &self.system.setup
+        &self.setup
     }
 
     /// Masses and inertias, one a body.
     #[must_use]
     pub fn inertias(&self) -> &[Inertia<T>] {
-        &self.system.setup.inertias
+        &self.setup.inertias
     }
 
     /// Gravity and other forces.
     #[must_use]
     pub fn forces(&self) -> &Forces<T> {
-        &self.system.setup.forces
+        &self.setup.forces
     }
 
     /// Energy and momenta.
@@ -81,69 +123,97 @@ impl<T: Real> Motion<T> {
     /// What it has cost.
     #[must_use]
     pub fn work(&self) -> Work {
-        self.method.work()
+        self.parts.iter().map(|part| part.method.work()).fold(Work::default(), |sum, work| Work {
+            rhs_evals: sum.rhs_evals + work.rhs_evals,
+            accepted: sum.accepted + work.accepted,
+            rejected: sum.rejected + work.rejected,
+        })
     }
 }
 
-/// The method in a formulation.
-fn method<F, T>(bodies: &Bodies<T>, solver: &Solver) -> Result<Box<dyn Advance<T>>, SolverError>
-where
-    T: Real,
-    F: Formulation<T> + Send + Sync + 'static,
-    F::Rate: Clone + Send + Sync,
-{
-    match solver.steps {
-        Steps::Fixed { dt_s } => fixed::<F, T>(bodies, solver.method, dt_s),
-        Steps::Adaptive { tolerance } => {
-            let tolerance = Tolerance { rtol: T::from_f64(tolerance.rtol), atol: T::from_f64(tolerance.atol) };
-            adaptive::<F, T>(bodies, solver.method, tolerance)
+impl<T: Real> Part<T> {
+    fn advance(&mut self, bodies: &mut Bodies<T>, t_s: f64, span_s: f64) -> Result<(), OdeError<MotionError>> {
+        let end_s = t_s + span_s;
+        let mut from_s = t_s;
+        for to_s in self.system.setup.forces.switches_within(t_s, end_s).into_iter().chain([end_s]) {
+            // The only piece is the span itself, not a difference of absolute times, which would lose its digits.
+            let piece_s = if from_s == t_s && to_s == end_s { span_s } else { to_s - from_s };
+            self.system.select(from_s, to_s);
+            self.method.advance(&mut self.system, bodies, from_s, piece_s)?;
+            from_s = to_s;
         }
+        Ok(())
     }
 }
 
-fn fixed<F, T>(bodies: &Bodies<T>, method: Method, dt_s: f64) -> Result<Box<dyn Advance<T>>, SolverError>
-where
-    T: Real,
-    F: Formulation<T> + Send + Sync + 'static,
-    F::Rate: Clone + Send + Sync,
-{
-    if !(dt_s > 0.0 && dt_s.is_finite()) {
-        return Err(StepError { step_s: dt_s }.into());
-    }
-    if let Some(composition) = method.composition() {
-        return Ok(Box::new(Composed::new(composition, bodies.len(), dt_s)));
-    }
-    Ok(match method {
-        Method::CashKarp => Box::new(FixedSteps::<CashKarp, F, T>::new(bodies, dt_s)),
-        Method::Tsit5 => Box::new(FixedSteps::<Tsit5, F, T>::new(bodies, dt_s)),
-        Method::Dop853 => Box::new(FixedSteps::<Dop853, F, T>::new(bodies, dt_s)),
-        _ => Box::new(FixedSteps::<Rk4, F, T>::new(bodies, dt_s)),
-    })
-}
+type Solved<T> = Result<Box<dyn Advance<T>>, SolverError>;
 
-fn adaptive<F, T>(
-    bodies: &Bodies<T>,
-    method: Method,
-    tolerance: Tolerance<T>,
-) -> Result<Box<dyn Advance<T>>, SolverError>
+/// The method in a formulation on a group, or one that is of this formulation alone.
+fn on_group<F, T>(bodies: &Bodies<T>, solver: &Solver) -> Solved<T>
 where
     T: Real,
-    F: Formulation<T> + Send + Sync + 'static,
+    F: Formulation<T> + LieState<T> + Send + Sync + 'static,
     F::Rate: Clone + Send + Sync,
 {
-    macro_rules! adaptive {
-        ($method:ty) => {{
+    let fixed_step = |dt_s| StepError::check(dt_s);
+    match (solver.method, solver.steps) {
+        (Method::FreeFlight, _) => Ok(Box::new(Flight::new())),
+        (method, Steps::Fixed { dt_s }) if method.composition().is_some() => {
+            let composition = method.composition().unwrap_or(Composition::Verlet);
+            Ok(Box::new(Composed::new(composition, bodies.len(), fixed_step(dt_s)?)))
+        }
+        (Method::Rkmk4, Steps::Fixed { dt_s }) => {
+            let make = LieRungeKutta::<Rkmk4, F, T>::new;
+            Ok(Box::new(FixedSteps::new(bodies, fixed_step(dt_s)?, make)))
+        }
+        (Method::CommutatorFree, Steps::Fixed { dt_s }) => {
+            let make = LieRungeKutta::<CommutatorFree4, F, T>::new;
+            Ok(Box::new(FixedSteps::new(bodies, fixed_step(dt_s)?, make)))
+        }
+        (Method::CommutatorFree, Steps::Adaptive { tolerance }) => {
             let start = F::from_bodies(bodies);
             let rates = start.zero_rates();
-            let stepper = Adaptive::<$method, F, T>::new(0.0, start, rates, tolerance)?;
+            let stepper = LieStepper::<CommutatorFree4, F, T>::adaptive(0.0, start, rates, in_scalar(tolerance))?;
+            Ok(Box::new(AdaptiveSteps::<_, F, T>::new(stepper, bodies)))
+        }
+        _ => linear::<F, T>(bodies, solver),
+    }
+}
+
+/// The method in a formulation whose numbers are added like those of a vector, and brought back after a step.
+fn linear<F, T>(bodies: &Bodies<T>, solver: &Solver) -> Solved<T>
+where
+    T: Real,
+    F: Formulation<T> + Send + Sync + 'static,
+    F::Rate: Clone + Send + Sync,
+{
+    macro_rules! fixed {
+        ($method:ty, $dt_s:expr) => {
+            Box::new(FixedSteps::new(bodies, StepError::check($dt_s)?, RungeKutta::<$method, F, T>::new))
+        };
+    }
+    macro_rules! adaptive {
+        ($method:ty, $tolerance:expr) => {{
+            let start = F::from_bodies(bodies);
+            let rates = start.zero_rates();
+            let stepper = Adaptive::<$method, F, T>::new(0.0, start, rates, in_scalar($tolerance))?;
             Box::new(AdaptiveSteps::<_, F, T>::new(stepper, bodies))
         }};
     }
-    Ok(match method {
-        Method::Rk4Doubling => adaptive!(Rk4Doubling),
-        Method::CashKarp => adaptive!(CashKarp),
-        Method::Tsit5 => adaptive!(Tsit5),
-        Method::Dop853 => adaptive!(Dop853),
-        method => return Err(SolverError::NotAdaptive(method)),
+    Ok(match (solver.method, solver.steps) {
+        (Method::Rk4 | Method::Rk4Doubling, Steps::Fixed { dt_s }) => fixed!(Rk4, dt_s),
+        (Method::CashKarp, Steps::Fixed { dt_s }) => fixed!(CashKarp, dt_s),
+        (Method::Tsit5, Steps::Fixed { dt_s }) => fixed!(Tsit5, dt_s),
+        (Method::Dop853, Steps::Fixed { dt_s }) => fixed!(Dop853, dt_s),
+        (Method::Rk4Doubling, Steps::Adaptive { tolerance }) => adaptive!(Rk4Doubling, tolerance),
+        (Method::CashKarp, Steps::Adaptive { tolerance }) => adaptive!(CashKarp, tolerance),
+        (Method::Tsit5, Steps::Adaptive { tolerance }) => adaptive!(Tsit5, tolerance),
+        (Method::Dop853, Steps::Adaptive { tolerance }) => adaptive!(Dop853, tolerance),
+        (method, Steps::Adaptive { .. }) => return Err(SolverError::NotAdaptive(method)),
+        (method, Steps::Fixed { .. }) => return Err(SolverError::DoesNotFit { method, form: solver.form }),
     })
+}
+
+fn in_scalar<T: Real>(tolerance: Tolerance<f64>) -> Tolerance<T> {
+    Tolerance { rtol: T::from_f64(tolerance.rtol), atol: T::from_f64(tolerance.atol) }
 }

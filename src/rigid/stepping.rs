@@ -3,6 +3,7 @@
 
 use super::{Bodies, Formulation, Inertia, MotionError, System, Wrenches};
 use crate::algebra::Real;
+use crate::ode::lie::{LieMethod, LieRungeKutta, LieState};
 use crate::ode::{self, Composition, OdeError, RungeKutta, Stepper, Tableau, Work};
 
 /// A map of bodies over spans in which no force switches.
@@ -56,26 +57,53 @@ fn check_turns<T: Real>(
     Ok(())
 }
 
-/// A Runge-Kutta method with steps of one length at most.
-pub(super) struct FixedSteps<M: Tableau, F: Formulation<T>, T: Real> {
-    method: RungeKutta<M, F, T>,
+/// A method with its storage, that makes single steps.
+pub(super) trait OneStep<F, T: Real> {
+    /// Evaluations of the equations of motion a step.
+    const STAGES: u64;
+
+    fn step(&mut self, state: &mut F, t_s: f64, h_s: f64, system: &mut System<T>) -> Result<(), MotionError>;
+}
+
+impl<M: Tableau, F: Formulation<T>, T: Real> OneStep<F, T> for RungeKutta<M, F, T> {
+    const STAGES: u64 = 1 + M::COEFFICIENTS.stages.len() as u64;
+
+    fn step(&mut self, state: &mut F, t_s: f64, h_s: f64, system: &mut System<T>) -> Result<(), MotionError> {
+        Self::step(self, state, t_s, h_s, system)
+    }
+}
+
+impl<M: LieMethod, F: Formulation<T> + LieState<T>, T: Real> OneStep<F, T> for LieRungeKutta<M, F, T> {
+    const STAGES: u64 = 4;
+
+    fn step(&mut self, state: &mut F, t_s: f64, h_s: f64, system: &mut System<T>) -> Result<(), MotionError> {
+        Self::step(self, state, t_s, h_s, system)
+    }
+}
+
+/// Steps of one length at most.
+pub(super) struct FixedSteps<M, F> {
+    method: M,
     state: F,
     dt_s: f64,
     work: Work,
 }
 
-impl<M: Tableau, F: Formulation<T>, T: Real> FixedSteps<M, F, T>
-where
-    F::Rate: Clone,
-{
-    pub(super) fn new(bodies: &Bodies<T>, dt_s: f64) -> Self {
+impl<M, F> FixedSteps<M, F> {
+    /// `make` gets the state, and rates of its size.
+    pub(super) fn new<T: Real>(bodies: &Bodies<T>, dt_s: f64, make: impl FnOnce(F, F::Rate) -> M) -> Self
+    where
+        F: Formulation<T>,
+    {
         let state = F::from_bodies(bodies);
-        Self { method: RungeKutta::new(state.clone(), state.zero_rates()), state, dt_s, work: Work::default() }
+        Self { method: make(state.clone(), state.zero_rates()), state, dt_s, work: Work::default() }
     }
 }
 
-impl<M: Tableau, F: Formulation<T>, T: Real> Advance<T> for FixedSteps<M, F, T>
+impl<M, F, T: Real> Advance<T> for FixedSteps<M, F>
 where
+    F: Formulation<T>,
+    M: OneStep<F, T>,
     Self: Send + Sync,
 {
     fn advance(
@@ -95,7 +123,7 @@ where
             settled.map_err(OdeError::System)?;
         }
         self.work.accepted += count;
-        self.work.rhs_evals += count * (1 + M::COEFFICIENTS.stages.len() as u64);
+        self.work.rhs_evals += count * M::STAGES;
         self.state.write_to(bodies);
         Ok(())
     }

@@ -3,10 +3,13 @@
 //! Runge-Kutta methods see them as rates. Compositions see kicks, `p += h F, L += h tau`, and between them drifts, the free
 //! motion of all bodies: exact, or split into rotations about the principal axes.
 
-use super::{Bodies, Forces, Formulation, Inertia, Joint, Method, MotionError, Wrenches, axis_splitting};
+use super::{
+    Bodies, Forces, Formulation, Inertia, Joint, Method, MotionError, SolverError, Wrenches, axis_splitting, free,
+};
 use crate::algebra::Real;
 use crate::algebra::g3::{Bivector, Rotor};
 use crate::ode;
+use alloc::vec;
 use alloc::vec::Vec;
 
 /// What bodies are subject to.
@@ -18,6 +21,38 @@ pub struct Setup<T> {
     pub forces: Forces<T>,
     /// Joints.
     pub joints: Vec<Joint<T>>,
+}
+
+impl<T: Real> Setup<T> {
+    /// What some of the bodies are subject to: the others are immovable, and have no forces and joints.
+    pub(super) fn of(&self, own: &[usize]) -> Result<Self, SolverError> {
+        let mut setup = Self { inertias: vec![Inertia::immovable(); self.inertias.len()], ..Self::default() };
+        for body_idx in own {
+            setup.inertias[*body_idx] = self.inertias[*body_idx];
+        }
+        setup.forces.gravity = self.forces.gravity;
+        // What has all its ends among other bodies is left out; an end in a fixed body is one of the world.
+        let links = |ends: [Option<usize>; 2]| {
+            let mut movable = ends.into_iter().flatten().filter(|index| !self.inertias[*index].is_immovable());
+            let (first, second) = (movable.next(), movable.next());
+            match (first.map(|index| own.contains(&index)), second.map(|index| own.contains(&index))) {
+                (Some(true), None | Some(true)) => Ok(true),
+                (None, _) | (Some(false), None | Some(false)) => Ok(false),
+                _ => Err(SolverError::Linked { a: first.unwrap_or(0), b: second.unwrap_or(0) }),
+            }
+        };
+        for force in &self.forces.forces {
+            if links(force.bodies())? {
+                setup.forces.forces.push(*force);
+            }
+        }
+        for joint in &self.joints {
+            if links(joint.bodies())? {
+                setup.joints.push(*joint);
+            }
+        }
+        Ok(setup)
+    }
 }
 
 /// The orientation of a free body after a time, from its inertia, orientation and angular momentum.
@@ -40,7 +75,7 @@ impl<T: Real> System<T> {
         let wrenches = Wrenches::zeros(setup.inertias.len());
         let turn = match method {
             Method::Splitting2 | Method::Splitting4 | Method::Splitting6 => axis_splitting::turn,
-            _ => axis_splitting::turn,
+            _ => free::turn,
         };
         let mut system = Self { setup, acting: Vec::new(), wrenches, turn };
         system.select(0.0, 0.0);

@@ -67,7 +67,7 @@ pub struct World<T: Real> {
     particles: Option<particle::Motion<T>>,
     trial: Bodies<T>,
     narrow_phase: NarrowPhase<T>,
-    /// Pairs that could collide: both have a shape, and one of them moves.
+    /// Pairs that could collide: both have a shape, one of them moves, and no joint holds them together.
     pairs: Vec<(usize, usize)>,
     contacts: Vec<Contact<T>>,
     /// For each pair: when it last struck, and how many times in a row without getting apart in between.
@@ -83,7 +83,7 @@ impl<T: Real> World<T> {
         let moves = |index: usize| !motion.inertias()[index].is_immovable();
         let indices: Vec<usize> = (0..setup.bodies.len()).filter(shaped).collect();
         let pairs = indices.iter().flat_map(|a| indices.iter().map(move |b| (*a, *b)));
-        let pairs = pairs.filter(|(a, b)| a < b && (moves(*a) || moves(*b))).collect();
+        let pairs = pairs.filter(|(a, b)| a < b && (moves(*a) || moves(*b)) && !joined(&motion, *a, *b)).collect();
         Self {
             particles: None,
             trial: setup.bodies.clone(),
@@ -301,4 +301,10 @@ impl<T: Real> World<T> {
             .map(|((a, b), speed)| (a, b, speed))
             .collect()
     }
+}
+
+/// Whether a joint holds two bodies together: they overlap where it is, and do not collide.
+fn joined<T: Real>(motion: &Motion<T>, a: usize, b: usize) -> bool {
+    let joins = |[first, second]: [Option<usize>; 2]| [(first, second), (second, first)].contains(&(Some(a), Some(b)));
+    motion.setup().joints.iter().any(|joint| joins(joint.bodies()))
 }
