@@ -7,7 +7,7 @@ use ga_physics::algebra::cga::{Point, Sphere};
 use ga_physics::algebra::g3::{Bivector, Rotor, Vector};
 use ga_physics::collision::{self, Collider, Contact, Polyhedron, balls_overlap, first_overlap};
 use ga_physics::geometry::mesh::Mesh;
-use ga_physics::rigid::{self, Bodies, Forces, Inertia, Method, Motion, Solver, totals};
+use ga_physics::rigid::{self, Attachment, Bodies, Forces, Inertia, Joint, Method, Motion, Solver, totals};
 use ga_physics::simulation::{self, Event, EventKind, SimulationError, World};
 
 /// SplitMix64.
@@ -459,4 +459,62 @@ fn scenes_far_from_the_origin_collide_alike() {
     // A world coordinate of 2e6 m is rounded to 2e-10 m; at 3 m/s that is under 1e-10 s.
     assert!((home.0 - far.0).abs() < 1e-9, "{home:?} and {far:?}");
     assert!((home.1 - far.1).abs() < 1e-9, "{home:?} and {far:?}");
+}
+
+/// A rod of 1 m hangs by a hinge from its upper end; a cube of the same material flies at its lower half. Returns the world
+/// before, and where the hinge is.
+fn struck_pendulum(restitution: f64) -> World<f64> {
+    let mut setup = empty::<f64>(restitution);
+    let at_rest = (Vector::default(), Bivector::default());
+    push(&mut setup, cuboid([0.1, 0.1, 1.0]), Point::new(0.0, 0.0, -0.5), Rotor::default(), at_rest.0, at_rest.1);
+    let start = Point::new(0.4, 0.0, -0.7);
+    let turned = Rotor::from_axis_angle(Vector::new(0.3, 0.4, 0.5), 0.4).unwrap();
+    push(&mut setup, cuboid([0.2; 3]), start, turned, Vector::new(-2.0, 0.0, 0.0), Bivector::default());
+    let hinge = Joint::Hinge {
+        a: Attachment::Body { body_idx: 0, at_body: Vector::new(0.0, 0.0, 0.5) },
+        b: Attachment::World(Point::origin()),
+        axis_a: Vector::new(0.0, 1.0, 0.0),
+        axis_b: Vector::new(0.0, 1.0, 0.0),
+    };
+    let Setup { bodies, inertias, colliders, forces, restitution } = setup;
+    let subject = rigid::Setup { inertias, forces, joints: vec![hinge] };
+    let motion = Motion::new(subject, &bodies, &Solver::fixed(Method::Yoshida4, 0.005)).unwrap();
+    World::new(simulation::Setup { bodies, colliders, restitution }, motion)
+}
+
+#[test]
+fn a_jointed_body_is_struck_with_its_joint() {
+    for restitution in [1.0, 0.5] {
+        let mut world = struck_pendulum(restitution);
+        let (before, mut events, mut time) = (world.totals(), vec![], 0.0);
+        while events.is_empty() && time < 1.0 {
+            time += 0.01;
+            world.advance_to(time, &mut events).unwrap();
+        }
+        let [event] = &events[..] else { panic!("{} impacts", events.len()) };
+        assert!(world.worst_violation().unwrap() < 1e-12, "the hinge holds");
+        // About the hinge, whose axis is e31, nothing turns the two; the hinge gives momentum.
+        let after = world.totals();
+        let change = after.angular_momentum.e31 - before.angular_momentum.e31;
+        assert!(change.abs() < 1e-13, "e = {restitution}: {change:e}");
+        assert!((after.momentum - before.momentum).norm_sq().sqrt() > 0.01, "the hinge took part");
+        // j = (1 + e) s / K with the inertia of the rod about the hinge: independently by its closed form.
+        let (rod, cube) = (world.motion().inertias()[0], world.motion().inertias()[1]);
+        let about_hinge = rod.inertia_body[1][1] + rod.mass * 0.25;
+        let arm = Vector::new(event.point.x, event.point.y, event.point.z);
+        let couple = (arm ^ event.normal).e31;
+        let reached = world.bodies().position[1].displacement_to(event.point);
+        let spin = cube.principal.moments[0];
+        let side = 1.0 / cube.mass + (reached ^ event.normal).norm_sq() / spin;
+        let expected = (1.0 + restitution) * 2.0 * event.normal.e1.abs() / (couple * couple / about_hinge + side);
+        assert!((event.impulse / expected - 1.0).abs() < 0.02, "{} against {expected}", event.impulse);
+        let lost = before.energy() - after.energy();
+        if restitution == 1.0 {
+            assert!(lost.abs() < 1e-10, "{lost:e}");
+        } else {
+            // (1 - e) j s / 2
+            let s = 2.0 * event.normal.e1.abs();
+            assert!((lost / ((1.0 - restitution) * event.impulse * s / 2.0) - 1.0).abs() < 1e-9, "{lost}");
+        }
+    }
 }

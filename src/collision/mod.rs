@@ -14,5 +14,5 @@ pub use bounds::balls_overlap;
 pub use contact::Contact;
 pub use narrow_phase::{Collider, NarrowPhase, Reach, Scenery};
 pub use polyhedron::{Polyhedron, PolyhedronError};
-pub use response::{Impulse, resolve};
+pub use response::{Impulse, resolve, resolve_jointed};
 pub use time_of_impact::{Bracket, first_overlap};

@@ -16,7 +16,7 @@
 use super::Contact;
 use crate::algebra::Real;
 use crate::algebra::g3::{Bivector, Vector};
-use crate::rigid::{Bodies, Inertia};
+use crate::rigid::{Bodies, Inertia, Motion, MotionError};
 use alloc::vec;
 use alloc::vec::Vec;
 use nalgebra::{DMatrix, DVector};
@@ -58,6 +58,65 @@ pub fn resolve<T: Real>(
     }
     let impulses = contacts.iter().zip(total).map(|(contact, magnitude)| Impulse { contact: *contact, magnitude });
     impulses.filter(|impulse| impulse.magnitude > T::zero()).collect()
+}
+
+/// The same where joints hold bodies: their impulses are part of the impact, so that `s+ <= -e s` holds with them.
+///
+/// # Errors
+/// Velocities that the joints cannot take up: a state that is not finite.
+pub fn resolve_jointed<T: Real>(
+    contacts: &[Contact<T>],
+    bodies: &mut Bodies<T>,
+    motion: &mut Motion<T>,
+    restitution: T,
+    time_s: f64,
+) -> Result<Vec<Impulse<T>>, MotionError> {
+    let mut total = vec![T::zero(); contacts.len()];
+    for _ in 0..MAX_PASSES {
+        let approaching = |index: &usize| contacts[*index].approaches(bodies, motion.inertias());
+        let struck: Vec<usize> = (0..contacts.len()).filter(approaching).collect();
+        if struck.is_empty() {
+            break;
+        }
+        let chosen: Vec<Contact<T>> = struck.iter().map(|index| contacts[*index]).collect();
+        let speed = |contact: &Contact<T>| contact.approach_speed(bodies, motion.inertias());
+        let wanted = chosen.iter().map(|contact| ((T::one() + restitution) * speed(contact)).to_f64());
+        let wanted = DVector::from_iterator(chosen.len(), wanted);
+        let rounding = chosen.iter().map(|contact| contact.speed_rounding(bodies, motion.inertias()).to_f64());
+        let rounding = DVector::from_iterator(chosen.len(), rounding);
+        let matrix = jointed_couplings(&chosen, bodies, motion, time_s)?;
+        let magnitudes = least_impulses(&matrix, &wanted, &rounding, T::EPSILON.to_f64());
+        for ((index, contact), magnitude) in struck.iter().zip(&chosen).zip(magnitudes.into_iter().map(T::from_f64)) {
+            apply(contact, contact.normal * magnitude, bodies);
+            total[*index] = total[*index] + magnitude;
+        }
+        motion.project_velocities(bodies, time_s)?;
+    }
+    let impulses = contacts.iter().zip(total).map(|(contact, magnitude)| Impulse { contact: *contact, magnitude });
+    Ok(impulses.filter(|impulse| impulse.magnitude > T::zero()).collect())
+}
+
+/// How much a unit impulse at one contact slows the approach at another, 1/kg, with the impulses by which the joints answer:
+/// found by giving it to the bodies at rest.
+fn jointed_couplings<T: Real>(
+    contacts: &[Contact<T>],
+    bodies: &Bodies<T>,
+    motion: &mut Motion<T>,
+    time_s: f64,
+) -> Result<DMatrix<f64>, MotionError> {
+    let n = contacts.len();
+    let mut matrix = DMatrix::zeros(n, n);
+    for (column, from) in contacts.iter().enumerate() {
+        let mut pushed = bodies.clone();
+        pushed.momentum.fill(Vector::default());
+        pushed.angular_momentum.fill(Bivector::default());
+        apply(from, from.normal, &mut pushed);
+        motion.project_velocities(&mut pushed, time_s)?;
+        for (row, at) in contacts.iter().enumerate() {
+            matrix[(row, column)] = -at.approach_speed(&pushed, motion.inertias()).to_f64();
+        }
+    }
+    Ok(matrix)
 }
 
 /// The impulses of contacts that approach.

@@ -10,7 +10,7 @@
 //! violation down is cut in half, so nothing blows up.
 //!
 //! The violation of a row is `|C| / max |g|` over its blocks: how far a single block would have to move, in metres where
-//! the coordinates are.
+//! the coordinates are. A configuration may measure it otherwise ([`Configuration::worst_violation`]).
 
 use super::multipliers::displacement;
 use super::rows::dot;
@@ -24,6 +24,15 @@ pub trait Configuration<const D: usize> {
 
     /// Moves every block: `q += displacement`.
     fn displace(&mut self, displacement: &[[f64; D]]);
+
+    /// The worst row and its violation, m, where the rows were last evaluated. Where blocks also turn, `|C| / max |g|` mixes
+    /// lengths with angles, and rows may have zeros that are none of the constraint: such a configuration has its own.
+    ///
+    /// # Errors
+    /// A number that is not finite, a violated row without gradient.
+    fn worst_violation(&self, rows: &Rows<D>) -> Result<(usize, f64), ProjectionError> {
+        rows.worst_violation()
+    }
 }
 
 /// A projection that arrived.
@@ -167,7 +176,7 @@ impl<const D: usize> Multipliers<D> {
     ) -> Result<Projected, ProjectionError> {
         configuration.evaluate(rows);
         let (mut evaluations, mut factorisations) = (1, 0);
-        let (mut row, mut violation_m) = rows.worst_violation()?;
+        let (mut row, mut violation_m) = configuration.worst_violation(rows)?;
         let mut stale = !self.valid;
         for _ in 0..MAX_STEPS {
             if violation_m <= tolerance_m {
@@ -214,7 +223,7 @@ impl<const D: usize> Multipliers<D> {
         for halving in 0..=MAX_HALVINGS {
             configuration.evaluate(rows);
             // A long step may leave the range of the numbers or hit a point without gradient: shorter ones do not.
-            if let Ok(worst) = rows.worst_violation()
+            if let Ok(worst) = configuration.worst_violation(rows)
                 && worst.1 < violation_m
             {
                 for (total, step) in self.total.iter_mut().zip(&self.step) {

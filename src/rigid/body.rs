@@ -67,16 +67,16 @@ impl<T: Real> Bodies<T> {
         }
     }
 
-    /// Moves a body and turns it by a rotation vector about its centre of mass, world, rad, as a bivector.
-    pub fn displace(&mut self, body_idx: usize, by: Vector<f64>, turn: Bivector<f64>) {
+    /// Moves a body, and turns it about its centre of mass by a rotation vector in its own frame, rad, as a bivector:
+    /// `R exp(-Theta/2)`, formed in f64 and rounded once.
+    pub(super) fn displace(&mut self, body_idx: usize, by: Vector<f64>, turn_body: Bivector<f64>) {
         self.position[body_idx] = self.position[body_idx].moved(by);
-        let turn = Rotor::exp(turn * -0.5);
-        // Composed in f64, so that small turns of f32 rotors are rounded once.
-        let turned = turn * self.rotor[body_idx].map(Real::to_f64);
+        let turn = Rotor::exp(turn_body * -0.5);
+        let turned = self.rotor[body_idx].map(Real::to_f64) * turn;
         self.rotor[body_idx] = turned.renormalise().unwrap_or(turned).map(T::from_f64);
         if let Some(matrix) = self.matrix.get_mut(body_idx) {
             let turn = nalgebra::UnitQuaternion::from(turn).to_rotation_matrix();
-            *matrix = (turn.matrix() * matrix.map(Real::to_f64)).map(T::from_f64);
+            *matrix = (matrix.map(Real::to_f64) * turn.matrix()).map(T::from_f64);
         }
     }
 

@@ -1,6 +1,7 @@
 //! Why bodies cannot be set in motion, or cannot go on.
 
-use super::{Form, Method, OrientationLost};
+use super::{Form, JointError, Method, OrientationLost};
+use crate::constraint::{ProjectionError, SolveError};
 use crate::ode::{StepError, ToleranceError};
 use thiserror::Error;
 
@@ -14,6 +15,22 @@ pub enum MotionError {
         time_s: f64,
         /// Which.
         source: OrientationLost,
+    },
+    /// The forces of the joints cannot be found. Rows are indices of joints.
+    #[error("at {time_s} s: {source}")]
+    Multipliers {
+        /// When.
+        time_s: f64,
+        /// Why.
+        source: SolveError,
+    },
+    /// The bodies cannot be brought back onto their joints. Rows are indices of joints.
+    #[error("at {time_s} s: {source}")]
+    Projection {
+        /// When.
+        time_s: f64,
+        /// Why.
+        source: ProjectionError,
     },
     /// Too fast a spin for the step.
     #[error(
@@ -35,6 +52,9 @@ pub enum MotionError {
 /// Why a solver cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum SolverError {
+    /// A joint.
+    #[error(transparent)]
+    Joint(#[from] JointError),
     /// The method is none for the formulation.
     #[error("`{}` does not integrate the {} form: choose `rk4`, `tsit5` or `dop853`, or the rotor form", .method.name(), .form.name())]
     DoesNotFit {

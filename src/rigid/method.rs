@@ -150,19 +150,18 @@ pub struct Solver {
     pub method: Method,
     /// Its steps; free flight makes none.
     pub steps: Steps,
-    /// The largest violation of a joint that is left, m.
-    pub violation_m: f64,
+    /// The largest violation of a joint that is left, relative to the smallest joint: see [`Held`](super::Held).
+    pub violation: f64,
 }
 
-/// What projection is asked for unless one says otherwise: what it reaches in f64 on bodies of about a metre, with digits to
-/// spare.
-const VIOLATION_M: f64 = 1e-13;
+/// What projection is asked for unless one says otherwise: what it reaches in f64 with digits to spare.
+const VIOLATION: f64 = 1e-13;
 
 impl Solver {
     /// Fixed steps, s, in the rotor form.
     #[must_use]
     pub fn fixed(method: Method, dt_s: f64) -> Self {
-        Self { form: Form::Rotor, method, steps: Steps::Fixed { dt_s }, violation_m: VIOLATION_M }
+        Self { form: Form::Rotor, method, steps: Steps::Fixed { dt_s }, violation: VIOLATION }
     }
 
     /// The same in another formulation.

@@ -57,7 +57,7 @@ impl<T: Real> Motion<T> {
             if !solver.method.fits(solver.form) {
                 return Err(SolverError::DoesNotFit { method: solver.method, form: solver.form });
             }
-            let system = System::new(setup.of(own)?, solver.method);
+            let system = System::new(setup.of(own)?, bodies, solver)?;
             if solver.method == Method::FreeFlight
                 && !(system.setup.forces.forces.is_empty() && system.setup.joints.is_empty())
             {
@@ -112,6 +112,43 @@ impl<T: Real> Motion<T> {
     #[must_use]
     pub fn forces(&self) -> &Forces<T> {
         &self.setup.forces
+    }
+
+    /// Momenta such that the joints stay held, as after an impact that took no account of them.
+    ///
+    /// # Errors
+    /// A state that is not finite.
+    pub fn project_velocities(&mut self, bodies: &mut Bodies<T>, time_s: f64) -> Result<(), MotionError> {
+        for part in &mut self.parts {
+            let projected = part.system.held.project_velocities(bodies);
+            projected.map_err(|source| MotionError::Multipliers { time_s, source })?;
+        }
+        Ok(())
+    }
+
+    /// The worst violation of a joint, m; none without joints. See [`Held::worst_violation`](super::Held).
+    pub fn worst_violation(&mut self, bodies: &Bodies<T>) -> Option<f64> {
+        let worst = self.parts.iter_mut().filter_map(|part| part.system.held.worst_violation(bodies));
+        worst.map(|(_, violation_m)| violation_m).reduce(f64::max)
+    }
+
+    /// The violation that is asked for, m; none without joints.
+    #[must_use]
+    pub fn asked_violation_m(&self) -> Option<f64> {
+        let held = self.parts.iter().map(|part| &part.system.held).filter(|held| !held.is_empty());
+        held.map(super::Held::asked_violation_m).reduce(f64::max)
+    }
+
+    /// The most rows of joints that were found redundant at a time; they get no force.
+    #[must_use]
+    pub fn redundant(&self) -> usize {
+        self.parts.iter().map(|part| part.system.held.redundant()).sum()
+    }
+
+    /// Drifts of compositions in which joints turned too far for RATTLE; see [`System::redirected`].
+    #[must_use]
+    pub fn redirected(&self) -> u64 {
+        self.parts.iter().map(|part| part.system.redirected()).sum()
     }
 
     /// Energy and momenta.

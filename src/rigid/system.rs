@@ -4,13 +4,19 @@
 //! motion of all bodies: exact, or split into rotations about the principal axes.
 
 use super::{
-    Bodies, Forces, Formulation, Inertia, Joint, Method, MotionError, SolverError, Wrenches, axis_splitting, free,
+    Bodies, Forces, Formulation, Held, Inertia, Joint, JointError, Method, MotionError, Solver, SolverError, Wrenches,
+    axis_splitting, free,
 };
 use crate::algebra::Real;
-use crate::algebra::g3::{Bivector, Rotor};
-use crate::ode;
+use crate::algebra::g3::{Bivector, Rotor, Vector};
+use crate::constraint::SolveError;
+use crate::ode::{self, State};
 use alloc::vec;
 use alloc::vec::Vec;
+
+/// A drift in which joints turn too far for impulses along their directions at its start is made in twice as many parts, up
+/// to this many; then it goes on along later directions. As for particles.
+const MAX_PARTS: u32 = 4;
 
 /// What bodies are subject to.
 #[derive(Clone, Debug, Default)]
@@ -26,6 +32,9 @@ pub struct Setup<T> {
 impl<T: Real> Setup<T> {
     /// What some of the bodies are subject to: the others are immovable, and have no forces and joints.
     pub(super) fn of(&self, own: &[usize]) -> Result<Self, SolverError> {
+        if own.len() == self.inertias.len() {
+            return Ok(self.clone());
+        }
         let mut setup = Self { inertias: vec![Inertia::immovable(); self.inertias.len()], ..Self::default() };
         for body_idx in own {
             setup.inertias[*body_idx] = self.inertias[*body_idx];
@@ -65,27 +74,41 @@ pub struct System<T: Real> {
     /// Indices of the forces that act in the present span.
     acting: Vec<usize>,
     wrenches: Wrenches<T>,
+    pub(super) held: Held<T>,
     turn: Turn<T>,
+    /// The bodies of another formulation, to be projected; the start of a drift.
+    before: Bodies<T>,
+    redirected: u64,
 }
 
 impl<T: Real> System<T> {
-    /// The system of a setup, to be solved by a method. Those forces act that act at time 0.
-    #[must_use]
-    pub fn new(setup: Setup<T>, method: Method) -> Self {
+    /// The system of a setup, to be solved as said. Those forces act that act at time 0.
+    ///
+    /// # Errors
+    /// A joint that is not sound, or not held at the start.
+    pub fn new(setup: Setup<T>, start: &Bodies<T>, solver: &Solver) -> Result<Self, JointError> {
+        let held = Held::new(&setup.joints, start, &setup.inertias, solver.violation)?;
         let wrenches = Wrenches::zeros(setup.inertias.len());
-        let turn = match method {
+        let turn = match solver.method {
             Method::Splitting2 | Method::Splitting4 | Method::Splitting6 => axis_splitting::turn,
             _ => free::turn,
         };
-        let mut system = Self { setup, acting: Vec::new(), wrenches, turn };
+        let mut system = Self { setup, acting: Vec::new(), wrenches, held, turn, before: start.clone(), redirected: 0 };
         system.select(0.0, 0.0);
-        system
+        Ok(system)
     }
 
     /// Masses, forces, joints.
     #[must_use]
     pub fn setup(&self) -> &Setup<T> {
         &self.setup
+    }
+
+    /// Drifts in which joints turned too far for impulses along their directions at the start: they went on along later
+    /// directions, which loses energy, but holds.
+    #[must_use]
+    pub fn redirected(&self) -> u64 {
+        self.redirected
     }
 
     /// Lets those forces act that act in a span; none must switch within it.
@@ -104,15 +127,29 @@ impl<T: Real> System<T> {
 impl<T: Real, F: Formulation<T>> ode::System<F, T> for System<T> {
     type Error = MotionError;
 
-    fn rate(&mut self, _t_s: f64, state: &F, rate: &mut F::Rate) -> Result<(), MotionError> {
-        let Self { setup, acting, wrenches, .. } = self;
+    fn rate(&mut self, t_s: f64, state: &F, rate: &mut F::Rate) -> Result<(), MotionError> {
+        let Self { setup, acting, wrenches, held, .. } = self;
         setup.forces.wrenches(acting, state, &setup.inertias, wrenches);
+        match held.constrain(state, &setup.inertias, wrenches) {
+            Ok(()) => {}
+            // A trial that left the range of the numbers: the stepper takes a shorter one, or says so.
+            Err(SolveError::NotFinite { .. }) => wrenches.force.fill(Vector::from([T::zero() / T::zero(); 3])),
+            Err(source) => return Err(MotionError::Multipliers { time_s: t_s, source }),
+        }
         state.rhs(&setup.inertias, wrenches, rate);
         Ok(())
     }
 
     fn settle(&mut self, t_s: f64, state: &mut F) -> Result<bool, MotionError> {
-        state.renormalise().map_err(|source| MotionError::Orientation { time_s: t_s, source })
+        let settled = state.renormalise().map_err(|source| MotionError::Orientation { time_s: t_s, source })?;
+        if self.held.is_empty() {
+            return Ok(settled);
+        }
+        state.write_to(&mut self.before);
+        let projected = self.held.project(&mut self.before);
+        projected.map_err(|source| MotionError::Projection { time_s: t_s, source })?;
+        state.read_from(&self.before);
+        Ok(true)
     }
 }
 
@@ -134,9 +171,38 @@ impl<T: Real> ode::Mechanics<Bodies<T>, T> for System<T> {
         }
     }
 
-    fn drift(&mut self, _t_s: f64, state: &mut Bodies<T>, h_s: T) -> Result<(), MotionError> {
-        drift(self.turn, state, &self.setup.inertias, h_s.to_f64());
-        Ok(())
+    fn drift(&mut self, t_s: f64, state: &mut Bodies<T>, h_s: T) -> Result<(), MotionError> {
+        let (turn, h_s) = (self.turn, h_s.to_f64());
+        let Self { setup: Setup { inertias, .. }, held, .. } = self;
+        if held.is_empty() {
+            drift(turn, state, inertias, h_s);
+            return Ok(());
+        }
+        self.before.assign(state);
+        let mut parts = 1_u32;
+        loop {
+            let mut straight = true;
+            let done = (0..parts).try_for_each(|_| {
+                // Nothing is gained by what follows a part that will be made again.
+                if straight || parts == MAX_PARTS {
+                    let free =
+                        |bodies: &mut Bodies<T>, inertias: &[Inertia<T>], h_s| drift(turn, bodies, inertias, h_s);
+                    straight &= held.shake(state, inertias, h_s / f64::from(parts), free)?;
+                }
+                Ok(())
+            });
+            if parts == MAX_PARTS || (straight && done.is_ok()) {
+                self.redirected += u64::from(!straight);
+                return done.map_err(|source| MotionError::Projection { time_s: t_s, source });
+            }
+            parts *= 2;
+            state.assign(&self.before);
+        }
+    }
+
+    fn settle(&mut self, t_s: f64, state: &mut Bodies<T>, _h_s: T) -> Result<(), MotionError> {
+        let projected = self.held.project_velocities(state);
+        projected.map_err(|source| MotionError::Multipliers { time_s: t_s, source })
     }
 }
 

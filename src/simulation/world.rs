@@ -117,7 +117,9 @@ impl<T: Real> World<T> {
 
     /// The worst violation of a constraint, m; none without constraints.
     pub fn worst_violation(&mut self) -> Option<f64> {
-        Some(self.particles.as_mut()?.worst_violation()?.1)
+        let of_particles = self.particles.as_mut().and_then(|particles| Some(particles.worst_violation()?.1));
+        let of_joints = self.motion.worst_violation(&self.setup.bodies);
+        [of_particles, of_joints].into_iter().flatten().reduce(f64::max)
     }
 
     /// The state.
@@ -275,7 +277,12 @@ impl<T: Real> World<T> {
         }
         let approaches = self.approaches();
         let Setup { bodies, restitution, .. } = &mut self.setup;
-        let impulses = collision::resolve(&self.contacts, bodies, self.motion.inertias(), *restitution);
+        let impulses = if self.motion.setup().joints.is_empty() {
+            collision::resolve(&self.contacts, bodies, self.motion.inertias(), *restitution)
+        } else {
+            collision::resolve_jointed(&self.contacts, bodies, &mut self.motion, *restitution, self.time_s)
+                .map_err(OdeError::System)?
+        };
         let bodies = &self.setup.bodies;
         let impact = |impulse: &collision::Impulse<T>| {
             Event::new(self.time_s, EventKind::Impact, &impulse.contact, bodies, impulse.magnitude)
