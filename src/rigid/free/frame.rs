@@ -31,6 +31,8 @@ pub(super) struct Frame {
     pub(super) amplitudes: [f64; 3],
     /// k and k'.
     pub(super) modulus: (f64, f64),
+    /// The difference of the terms of S by the larger one: how far the separatrix is.
+    pub(super) off_separatrix: f64,
     /// d tau / dt, rad/s.
     pub(super) lambda_rad_s: f64,
     /// The phase's rate at `sn = 0`, rad/s: see `series`.
@@ -73,11 +75,12 @@ impl Frame {
         let [ux, uy, uz] = u;
         let (w, v) = (ay * ux * ux + ax * uy * uy, az * uy * uy + ay * uz * uz);
         let amplitudes = [(w / ay).sqrt(), (w / ax).sqrt(), (v / ay).sqrt()];
+        let (plus, minus) = (ax.sqrt() * uz, az.sqrt() * ux);
+        let difference = (plus - minus).max(0.0);
         let modulus = if az > 0.0 {
-            let (largest, smallest) = (ax.sqrt() * uz, az.sqrt() * ux);
-            // Of the factors of S, not of S: it would underflow.
-            let factors = (ay / (ax * v)).sqrt() * (largest - smallest).max(0.0).sqrt() * (largest + smallest).sqrt();
-            ((az * w / (ax * v)).sqrt(), factors.min(1.0))
+            // Of the factors of S, not of S, which would underflow.
+            let complement = (ay / (ax * v)).sqrt() * difference.sqrt() * (plus + minus).sqrt();
+            ((az * w / (ax * v)).sqrt(), complement.min(1.0))
         } else {
             (0.0, 1.0)
         };
@@ -91,6 +94,7 @@ impl Frame {
             a,
             amplitudes,
             modulus,
+            off_separatrix: difference / plus,
             lambda_rad_s: rate * (ax * v).sqrt(),
             phase_rad_s: rate * phase,
         }

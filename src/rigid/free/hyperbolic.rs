@@ -58,7 +58,8 @@ impl Hyperbolic {
         let (p2, p6) = (p * p, p * p * p * p * p * p);
         // r at v = pi/2, where dn = k'.
         let (cos_4y, p4) = (cos_2y * cos_2y - sin_2y * sin_2y, p2 * p2);
-        let (even, odd) = (1.0 + 2.0 * p4 * cos_4y, 2.0 * p * cos_2y);
+        let cos_6y = cos_2y * (2.0 * cos_4y - 1.0);
+        let (even, odd) = (1.0 + 2.0 * p4 * cos_4y, 2.0 * p * (cos_2y + p4 * p4 * cos_6y));
         let ratio = b / (1.0 + c * k_complement) * ((even + odd) / (even - odd));
         let x_per_s = frame.sense * frame.lambda_rad_s / (2.0 * landen.quarter);
         // d arg(alpha) / dX at X = 0, where the phase's rate is known.

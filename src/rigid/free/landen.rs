@@ -9,10 +9,11 @@
 //! which is solved for `s1`, so that `pi u / 2K` is found from sn and cn of u without an inverse function; with `u = i w`
 //! for `w` likewise. `k` falls quadratically: from 0.985 the fifth is 5e-11.
 
-/// Of a smaller modulus sn differs from sin by less than rounding: by `k² / 4`.
-const SMALLEST_MODULUS: f64 = 1e-8;
+/// Where the moduli end. Of the last one sn differs from sin by `k² / 4`, and for the largest s that the step before leaves,
+/// `1/sqrt(k)`, from sinh by the part k.
+const LAST_MODULUS: f64 = 1e-16;
 
-/// From a modulus of 0.99 five steps lead below [`SMALLEST_MODULUS`].
+/// From a modulus of 0.99 six steps lead below [`LAST_MODULUS`].
 const MOST_STEPS: usize = 6;
 
 /// The moduli below one.
@@ -31,7 +32,7 @@ impl Landen {
     pub(super) fn new(k: f64, k_complement: f64) -> Self {
         let mut chain = Self { moduli: [0.0; MOST_STEPS], steps: 0, quarter: 1.0, first: (0.0, 1.0) };
         let (mut k, mut k_complement) = (k, k_complement);
-        while k > SMALLEST_MODULUS && chain.steps < MOST_STEPS {
+        while chain.steps == 0 || (k > LAST_MODULUS && chain.steps < MOST_STEPS) {
             let root = k / (1.0 + k_complement);
             (k, k_complement) = (root * root, 2.0 * k_complement.sqrt() / (1.0 + k_complement));
             if chain.steps == 0 {
@@ -40,9 +41,6 @@ impl Landen {
             chain.moduli[chain.steps] = k;
             chain.steps += 1;
             chain.quarter *= 1.0 + k;
-        }
-        if chain.steps == 0 {
-            chain.first = (0.25 * k * k, 1.0);
         }
         chain
     }

@@ -26,9 +26,12 @@ use hyperbolic::Hyperbolic;
 use top::{Top, rotor as rotor_of};
 use trigonometric::Trigonometric;
 
-/// A momentum whose direction is off a principal axis by less lies on it: a rotor that was rounded a few times puts it
-/// there. Only for the middle axis does it matter, from which any other direction departs.
-const ON_AXIS: f64 = 4.0 * f64::EPSILON;
+/// A momentum whose direction is off a principal axis by less lies on it: that is how far the rounding of two products of
+/// rotors and of the sandwich puts it off, at most. Only for the middle axis does it matter, from which all else departs.
+const ON_AXIS: f64 = 16.0 * f64::EPSILON;
+
+/// Two terms of `S` that differ by less than this part of them are equal: each errs by half as much.
+const ON_SEPARATRIX: f64 = 4.0 * f64::EPSILON;
 
 /// The modulus k' at which both series have the same nome e^-pi: `K'/K = 1/2`, `k' = (sqrt 2 - 1)²` (DLMF 22.2, 19.6).
 const SWITCH: f64 = 0.171_572_875_253_809_9;
@@ -75,7 +78,7 @@ impl FreeMotion {
     #[must_use]
     pub fn new<T: Real>(inertia: &Inertia<T>, rotor: Rotor<T>, angular_momentum: Bivector<T>) -> Self {
         let axes = inertia.principal.axes;
-        let rotor = rotor.map(Real::to_f64);
+        let rotor = unit_again(rotor.map(Real::to_f64));
         match Top::new(inertia.principal.moments, rotor * axes, angular_momentum.map(Real::to_f64)) {
             Some(top) => Self::of(&top, axes),
             None => Self { case: Case::Still, left: rotor, series: Series::Still, right: Rotor::default() },
@@ -110,8 +113,7 @@ impl FreeMotion {
         let (_, k_complement) = frame.modulus;
         let case = match frame {
             _ if top.a[0] == 0.0 || top.a[2] == 0.0 => Case::Symmetric,
-            // The difference from the separatrix is that of two numbers which err by some eps.
-            _ if k_complement * k_complement <= ON_AXIS * frame.u[2].min(frame.u[0]) => Case::Separatrix,
+            _ if frame.off_separatrix <= ON_SEPARATRIX => Case::Separatrix,
             Frame { sense, .. } if sense > 0.0 => Case::AboutLargest,
             _ => Case::AboutSmallest,
         };
@@ -123,7 +125,7 @@ impl FreeMotion {
         let right = frame.from_principal * axes.rev();
         let mut motion = Self { case, left: Rotor::default(), series, right };
         let start: Rotor<f64> = motion.at(0.0);
-        motion.left = top.rotor * axes.rev() * start.rev();
+        motion.left = unit_again(top.rotor * axes.rev() * start.rev());
         motion
     }
 
@@ -135,7 +137,7 @@ impl FreeMotion {
         // The shortest arc from u to z.
         let scale = 1.0 / (2.0 * (1.0 + u[2])).sqrt();
         let arc = rotor_of((1.0 + u[2]) * scale, [u[1] * scale, -u[0] * scale, 0.0]);
-        let left = top.rotor * to_frame.rev() * arc.rev();
+        let left = unit_again(top.rotor * to_frame.rev() * arc.rev());
         let right = if on_axis { to_frame } else { arc * to_frame } * axes.rev();
         let case = if on_axis { Case::SingleAxis } else { Case::Spherical };
         let phase_rad_s = top.rate_rad_s * top.b[z];
@@ -151,12 +153,12 @@ impl FreeMotion {
 pub fn turn<T: Real>(inertia: &Inertia<T>, rotor: Rotor<T>, angular_momentum: Bivector<T>, h_s: f64) -> Rotor<T> {
     let axes = inertia.principal.axes;
     let start = rotor.map(Real::to_f64);
-    let top = Top::new(inertia.principal.moments, start * axes, angular_momentum.map(Real::to_f64));
+    let top = Top::new(inertia.principal.moments, unit_again(start) * axes, angular_momentum.map(Real::to_f64));
     let Some(top) = top else { return rotor };
     let t = top.rate_rad_s * h_s;
     let [u1, _, u3] = top.u;
     let on_middle = u1.abs().max(u3.abs()) <= ON_AXIS;
-    if !(top.a[1] * t.abs() <= short::LONGEST) || on_middle {
+    if !(top.a[1] * t.abs() <= short::LONGEST && t.abs() <= short::MOST_TURN) || on_middle {
         return FreeMotion::of(&top, axes).at(h_s);
     }
     let change = short::turn_less_one(&top, t);
@@ -166,6 +168,15 @@ pub fn turn<T: Real>(inertia: &Inertia<T>, rotor: Rotor<T>, angular_momentum: Bi
     let change = start * change + start * (0.5 * (1.0 - start.norm_sq()));
     let end = start + change;
     Rotor::new(end.s, end.e23, end.e31, end.e12).map(T::from_f64)
+}
+
+/// A rotor whose length is off 1 by the rounding of f32 at most, at unit length: the first step of Newton's method. Its own
+/// sandwich takes the unit length for granted.
+#[inline]
+fn unit_again(rotor: Rotor<f64>) -> Rotor<f64> {
+    let square = rotor.s * rotor.s + rotor.e23 * rotor.e23 + rotor.e31 * rotor.e31 + rotor.e12 * rotor.e12;
+    let scale = 1.5 - 0.5 * square;
+    Rotor::new(rotor.s * scale, rotor.e23 * scale, rotor.e31 * scale, rotor.e12 * scale)
 }
 
 /// `alpha + beta j` at unit length, as a rotor; the imaginary unit of both is k.

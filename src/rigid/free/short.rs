@@ -24,6 +24,9 @@ use crate::algebra::g3::Even;
 /// sn then errs by `0.0015 (x/2)^14`, the integral by `0.014 (x/6)^10`, both less than rounding.
 pub(super) const LONGEST: f64 = 0.2;
 
+/// The largest step in units of `I1 / l`, of which a body of almost equal moments may take many: its powers do not overflow.
+pub(super) const MOST_TURN: f64 = 1e70;
+
 /// `D - 1`, in the principal frame, of a step of `t` in units of `I1 / l`.
 pub(super) fn turn_less_one(top: &Top, t: f64) -> Even<f64> {
     let ([a1, a2, a3], u) = (top.a, top.u);
