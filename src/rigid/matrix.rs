@@ -13,6 +13,7 @@
 
 use super::quaternion::{axial, fill, inverse, numbers, vector};
 use super::rotor::Worst;
+use super::sums::{add_scaled, assign};
 use super::{Bodies, Formulation, Inertia, MotionError, OrientationLost, System, Wrenches};
 use crate::algebra::Real;
 use crate::algebra::cga::Point;
@@ -50,16 +51,20 @@ pub struct Rates<T: Real> {
 
 /// The equations of motion, for every body.
 pub fn rhs<T: Real>(state: &State<T>, inertias: &[Inertia<T>], wrenches: &Wrenches<T>, rates: &mut Rates<T>) {
-    for (body_idx, inertia) in inertias.iter().enumerate() {
-        let r = state.orientation[body_idx];
-        let w = omega_body(state, body_idx, inertia);
+    let n = inertias.len();
+    let (orientation, momentum) = (&state.orientation[..n], &state.momentum[..n]);
+    let angular_momentum = &state.angular_momentum[..n];
+    let (xdot, rdot) = (&mut rates.position[..n], &mut rates.orientation[..n]);
+    for (i, inertia) in inertias.iter().enumerate() {
+        let r = orientation[i];
+        let w = inverse(inertia) * r.tr_mul(&angular_momentum[i]);
         let (x, y, z) = (r.column(0), r.column(1), r.column(2));
-        rates.position[body_idx] = state.momentum[body_idx] * inertia.inv_mass.to_field();
+        xdot[i] = momentum[i] * inertia.inv_mass.to_field();
         // R omega_body*, without the products with its zeros.
-        rates.orientation[body_idx] = Matrix3::from_columns(&[y * w.z - z * w.y, z * w.x - x * w.z, x * w.y - y * w.x]);
-        rates.momentum[body_idx] = vector(wrenches.force[body_idx]);
-        rates.angular_momentum[body_idx] = axial(wrenches.torque[body_idx]);
+        rdot[i] = Matrix3::from_columns(&[y * w.z - z * w.y, z * w.x - x * w.z, x * w.y - y * w.x]);
     }
+    fill(&mut rates.momentum, wrenches.force.iter().map(|force| vector(*force)));
+    fill(&mut rates.angular_momentum, wrenches.torque.iter().map(|torque| axial(*torque)));
 }
 
 /// `I^-1 R^T L`, rad/s.
@@ -217,20 +222,20 @@ impl<T: Real> ode::State<T> for State<T> {
     type Rate = Rates<T>;
 
     fn assign(&mut self, other: &Self) {
-        self.position.clone_from(&other.position);
-        self.orientation.clone_from(&other.orientation);
-        self.momentum.clone_from(&other.momentum);
-        self.angular_momentum.clone_from(&other.angular_momentum);
+        assign(&mut self.position, &other.position);
+        assign(&mut self.orientation, &other.orientation);
+        assign(&mut self.momentum, &other.momentum);
+        assign(&mut self.angular_momentum, &other.angular_momentum);
     }
 
     fn add_scaled(&mut self, terms: &[(T, &Rates<T>)]) {
-        for body_idx in 0..self.position.len() {
-            let change = Change::new(terms, body_idx);
-            self.position[body_idx] += Vector3::from(numbers::<T>(&change.position).map(Real::to_f64));
-            self.orientation[body_idx] += change.orientation;
-            self.momentum[body_idx] += change.momentum;
-            self.angular_momentum[body_idx] += change.angular_momentum;
-        }
+        let times = |k: Vector3<T::Field>, h: T| k * h.to_field();
+        let moved = |x: &mut Point3<f64>, by| *x += Vector3::from(numbers::<T>(&by).map(Real::to_f64));
+        add_scaled(&mut self.position, terms, |rates| &rates.position, times, moved);
+        let turned = |k: Matrix3<T::Field>, h: T| k * h.to_field();
+        add_scaled(&mut self.orientation, terms, |rates| &rates.orientation, turned, |y, by| *y += by);
+        add_scaled(&mut self.momentum, terms, |rates| &rates.momentum, times, |y, by| *y += by);
+        add_scaled(&mut self.angular_momentum, terms, |rates| &rates.angular_momentum, times, |y, by| *y += by);
     }
 }
 

@@ -25,6 +25,7 @@ pub mod motor;
 pub mod quaternion;
 pub mod rotor;
 mod stepping;
+mod sums;
 mod system;
 
 pub use crate::particle::Totals;

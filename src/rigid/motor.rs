@@ -32,6 +32,7 @@
 //! xdot by itself, are exact.
 
 use super::rotor::Worst;
+use super::sums::{add_scaled, assign};
 use super::{Bodies, Formulation, Inertia, MotionError, OrientationLost, System, Wrenches};
 use crate::algebra::Real;
 use crate::algebra::cga::{Motor, Point};
@@ -68,13 +69,16 @@ pub struct Rates<T> {
 
 /// The equations of motion, for every body.
 pub fn rhs<T: Real>(state: &State<T>, inertias: &[Inertia<T>], wrenches: &Wrenches<T>, rates: &mut Rates<T>) {
-    let minus_half = T::ratio(-1, 2);
-    for (body_idx, inertia) in inertias.iter().enumerate() {
-        let (r, m) = parts(state.motor[body_idx]);
-        let omega_body = omega_body(state, body_idx, inertia) * minus_half;
-        let velocity = state.momentum[body_idx] * (inertia.inv_mass * minus_half);
-        rates.even[body_idx] = r * omega_body;
-        rates.odd[body_idx] = m * omega_body + velocity * r;
+    let (minus_half, n) = (T::ratio(-1, 2), inertias.len());
+    let (motor, momentum) = (&state.motor[..n], &state.momentum[..n]);
+    let angular_momentum = &state.angular_momentum[..n];
+    let (rdot, mdot) = (&mut rates.even[..n], &mut rates.odd[..n]);
+    for (i, inertia) in inertias.iter().enumerate() {
+        let (r, m) = parts(motor[i]);
+        let omega_body = inertia.velocity_of(r.rev().apply(angular_momentum[i])) * minus_half;
+        let velocity = momentum[i] * (inertia.inv_mass * minus_half);
+        rdot[i] = r * omega_body;
+        mdot[i] = m * omega_body + velocity * r;
     }
     rates.momentum.copy_from_slice(&wrenches.force);
     rates.angular_momentum.copy_from_slice(&wrenches.torque);
@@ -213,22 +217,26 @@ impl<T: Real> ode::State<T> for State<T> {
     type Rate = Rates<T>;
 
     fn assign(&mut self, other: &Self) {
-        self.anchor.clone_from(&other.anchor);
-        self.motor.clone_from(&other.motor);
-        self.momentum.clone_from(&other.momentum);
-        self.angular_momentum.clone_from(&other.angular_momentum);
+        assign(&mut self.anchor, &other.anchor);
+        assign(&mut self.motor, &other.motor);
+        assign(&mut self.momentum, &other.momentum);
+        assign(&mut self.angular_momentum, &other.angular_momentum);
     }
 
     fn add_scaled(&mut self, terms: &[(T, &Rates<T>)]) {
-        for body_idx in 0..self.motor.len() {
-            let change = Change::new(terms, body_idx);
-            // A stage may leave the unit motors; `renormalise` brings the step back.
-            let ((r, m), turned) = (parts(self.motor[body_idx]), change.even);
-            let r = Rotor::new(r.s + turned.s, r.e23 + turned.e23, r.e31 + turned.e31, r.e12 + turned.e12);
-            self.motor[body_idx] = joined(r, m + change.odd);
-            self.momentum[body_idx] += change.momentum;
-            self.angular_momentum[body_idx] += change.angular_momentum;
-        }
+        // A stage may leave the unit motors; `renormalise` brings the step back.
+        let turned = |motor: &mut Motor<T>, by: Even<T>| {
+            let (r, m) = parts(*motor);
+            *motor = joined(Rotor::new(r.s + by.s, r.e23 + by.e23, r.e31 + by.e31, r.e12 + by.e12), m);
+        };
+        let moved = |motor: &mut Motor<T>, by: Odd<T>| {
+            let (r, m) = parts(*motor);
+            *motor = joined(r, m + by);
+        };
+        add_scaled(&mut self.motor, terms, |rates| &rates.even, |k, h| k * h, turned);
+        add_scaled(&mut self.motor, terms, |rates| &rates.odd, |k, h| k * h, moved);
+        add_scaled(&mut self.momentum, terms, |rates| &rates.momentum, |k, h| k * h, |p, by| *p += by);
+        add_scaled(&mut self.angular_momentum, terms, |rates| &rates.angular_momentum, |k, h| k * h, |l, by| *l += by);
     }
 }
 

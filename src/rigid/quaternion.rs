@@ -9,6 +9,7 @@
 //! and an axial vector has the components of its bivector (e23, e31, e12), so states convert without rounding.
 
 use super::rotor::Worst;
+use super::sums::{add_scaled, assign};
 use super::{Bodies, Formulation, Inertia, MotionError, OrientationLost, System, Wrenches};
 use crate::algebra::Real;
 use crate::algebra::cga::Point;
@@ -46,17 +47,21 @@ pub struct Rates<T: Real> {
 
 /// The equations of motion, for every body.
 pub fn rhs<T: Real>(state: &State<T>, inertias: &[Inertia<T>], wrenches: &Wrenches<T>, rates: &mut Rates<T>) {
-    let half = T::ratio(1, 2).to_field();
-    for (body_idx, inertia) in inertias.iter().enumerate() {
-        let q = state.orientation[body_idx];
-        let omega_body = omega_body(state, body_idx, inertia) * half;
-        rates.position[body_idx] = state.momentum[body_idx] * inertia.inv_mass.to_field();
+    let (half, n) = (T::ratio(1, 2).to_field(), inertias.len());
+    let (orientation, momentum) = (&state.orientation[..n], &state.momentum[..n]);
+    let angular_momentum = &state.angular_momentum[..n];
+    let (xdot, qdot) = (&mut rates.position[..n], &mut rates.orientation[..n]);
+    for (i, inertia) in inertias.iter().enumerate() {
+        let q = orientation[i];
+        let omega_body =
+            inverse(inertia) * Unit::new_unchecked(q).inverse_transform_vector(&angular_momentum[i]) * half;
+        xdot[i] = momentum[i] * inertia.inv_mass.to_field();
         // The product with a quaternion that has no real part.
         let imaginary = omega_body * q.w + q.imag().cross(&omega_body);
-        rates.orientation[body_idx] = Quaternion::from_parts(-q.imag().dot(&omega_body), imaginary);
-        rates.momentum[body_idx] = vector(wrenches.force[body_idx]);
-        rates.angular_momentum[body_idx] = axial(wrenches.torque[body_idx]);
+        qdot[i] = Quaternion::from_parts(-q.imag().dot(&omega_body), imaginary);
     }
+    fill(&mut rates.momentum, wrenches.force.iter().map(|force| vector(*force)));
+    fill(&mut rates.angular_momentum, wrenches.torque.iter().map(|torque| axial(*torque)));
 }
 
 /// `I^-1 (q* L q)`, rad/s.
@@ -206,21 +211,21 @@ impl<T: Real> ode::State<T> for State<T> {
     type Rate = Rates<T>;
 
     fn assign(&mut self, other: &Self) {
-        self.position.clone_from(&other.position);
-        self.orientation.clone_from(&other.orientation);
-        self.momentum.clone_from(&other.momentum);
-        self.angular_momentum.clone_from(&other.angular_momentum);
+        assign(&mut self.position, &other.position);
+        assign(&mut self.orientation, &other.orientation);
+        assign(&mut self.momentum, &other.momentum);
+        assign(&mut self.angular_momentum, &other.angular_momentum);
     }
 
     fn add_scaled(&mut self, terms: &[(T, &Rates<T>)]) {
-        for body_idx in 0..self.position.len() {
-            let change = Change::new(terms, body_idx);
-            self.position[body_idx] += Vector3::from(numbers::<T>(&change.position).map(Real::to_f64));
-            // A stage may leave the unit quaternions; `renormalise` brings the step back.
-            self.orientation[body_idx] += change.orientation;
-            self.momentum[body_idx] += change.momentum;
-            self.angular_momentum[body_idx] += change.angular_momentum;
-        }
+        let times = |k: Vector3<T::Field>, h: T| k * h.to_field();
+        let moved = |x: &mut Point3<f64>, by| *x += Vector3::from(numbers::<T>(&by).map(Real::to_f64));
+        add_scaled(&mut self.position, terms, |rates| &rates.position, times, moved);
+        // A stage may leave the unit quaternions; `renormalise` brings the step back.
+        let turned = |k: Quaternion<T::Field>, h: T| k * h.to_field();
+        add_scaled(&mut self.orientation, terms, |rates| &rates.orientation, turned, |y, by| *y += by);
+        add_scaled(&mut self.momentum, terms, |rates| &rates.momentum, times, |y, by| *y += by);
+        add_scaled(&mut self.angular_momentum, terms, |rates| &rates.angular_momentum, times, |y, by| *y += by);
     }
 }
 

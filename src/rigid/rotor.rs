@@ -6,6 +6,7 @@
 //!
 //! Its state is [`Bodies`]. L and p are exact where no force acts.
 
+use super::sums::{add_scaled, assign};
 use super::{Bodies, Formulation, Inertia, MotionError, OrientationLost, System, Wrenches};
 use crate::algebra::Real;
 use crate::algebra::cga::Point;
@@ -42,11 +43,14 @@ impl<T: Real> Rates<T> {
 
 /// The equations of motion, for every body.
 pub fn rhs<T: Real>(bodies: &Bodies<T>, inertias: &[Inertia<T>], wrenches: &Wrenches<T>, rates: &mut Rates<T>) {
-    for (body_idx, inertia) in inertias.iter().enumerate() {
-        let rotor = bodies.rotor[body_idx];
-        let omega_body = bodies.omega_body(body_idx, inertia);
-        rates.position[body_idx] = bodies.momentum[body_idx] * inertia.inv_mass;
-        rates.rotor[body_idx] = (rotor * omega_body) * T::ratio(-1, 2);
+    let (minus_half, n) = (T::ratio(-1, 2), inertias.len());
+    let (rotor, momentum) = (&bodies.rotor[..n], &bodies.momentum[..n]);
+    let angular_momentum = &bodies.angular_momentum[..n];
+    let (xdot, rdot) = (&mut rates.position[..n], &mut rates.rotor[..n]);
+    for (i, inertia) in inertias.iter().enumerate() {
+        let omega_body = inertia.velocity_of(rotor[i].rev().apply(angular_momentum[i]));
+        xdot[i] = momentum[i] * inertia.inv_mass;
+        rdot[i] = rotor[i] * (omega_body * minus_half);
     }
     rates.momentum.copy_from_slice(&wrenches.force);
     rates.angular_momentum.copy_from_slice(&wrenches.torque);
@@ -133,24 +137,23 @@ impl<T: Real> State<T> for Bodies<T> {
     type Rate = Rates<T>;
 
     fn assign(&mut self, other: &Self) {
-        self.position.clone_from(&other.position);
-        self.rotor.clone_from(&other.rotor);
-        self.momentum.clone_from(&other.momentum);
-        self.angular_momentum.clone_from(&other.angular_momentum);
+        assign(&mut self.position, &other.position);
+        assign(&mut self.rotor, &other.rotor);
+        assign(&mut self.momentum, &other.momentum);
+        assign(&mut self.angular_momentum, &other.angular_momentum);
         self.matrix.clone_from(&other.matrix);
     }
 
     fn add_scaled(&mut self, terms: &[(T, &Rates<T>)]) {
-        for body_idx in 0..self.position.len() {
-            let change = Change::new(terms, body_idx);
-            self.position[body_idx] = self.position[body_idx].moved(change.position.map(Real::to_f64));
-            // A stage may leave the unit rotors; `renormalise` brings the step back.
-            let (rotor, turned) = (&mut self.rotor[body_idx], change.rotor);
-            *rotor =
-                Rotor::new(rotor.s + turned.s, rotor.e23 + turned.e23, rotor.e31 + turned.e31, rotor.e12 + turned.e12);
-            self.momentum[body_idx] += change.momentum;
-            self.angular_momentum[body_idx] += change.angular_momentum;
-        }
+        let moved = |x: &mut Point<f64>, by: Vector<T>| *x = x.moved(by.map(Real::to_f64));
+        add_scaled(&mut self.position, terms, |rates| &rates.position, |k, h| k * h, moved);
+        // A stage may leave the unit rotors; `renormalise` brings the step back.
+        let turned = |r: &mut Rotor<T>, by: Even<T>| {
+            *r = Rotor::new(r.s + by.s, r.e23 + by.e23, r.e31 + by.e31, r.e12 + by.e12);
+        };
+        add_scaled(&mut self.rotor, terms, |rates| &rates.rotor, |k, h| k * h, turned);
+        add_scaled(&mut self.momentum, terms, |rates| &rates.momentum, |k, h| k * h, |p, by| *p += by);
+        add_scaled(&mut self.angular_momentum, terms, |rates| &rates.angular_momentum, |k, h| k * h, |l, by| *l += by);
     }
 }
 
