@@ -107,7 +107,7 @@ impl<const D: usize> Direct<D> {
             row,
             row_starts,
             column,
-            inv_pivot: vec![0.0; n],
+            inv_pivot: vec![1.0; n],
             redundant: Vec::with_capacity(n),
             weakest: 1.0,
             filled,
@@ -141,6 +141,21 @@ impl<const D: usize> Direct<D> {
     /// # Errors
     /// A gradient or mass that is not finite.
     pub fn prepare(&mut self, rows: &Rows<D>, inverse_mass: &(impl InverseMass<D> + ?Sized)) -> Result<(), SolveError> {
+        self.inv_pivot.fill(1.0);
+        self.prepare_alike(rows, inverse_mass)
+    }
+
+    /// The same at gradients near the last ones, dropping what was dropped there too. Rows that depend on each other
+    /// *because* they hold, as those of a spatial linkage, do so up to the square of the violation: off the constraints by
+    /// more than half the digits they would pass for independent, and what they ask for then would be arbitrary.
+    ///
+    /// # Errors
+    /// A gradient or mass that is not finite.
+    pub fn prepare_alike(
+        &mut self,
+        rows: &Rows<D>,
+        inverse_mass: &(impl InverseMass<D> + ?Sized),
+    ) -> Result<(), SolveError> {
         self.normal.fill(rows, inverse_mass);
         self.redundant.clear();
         self.weakest = 1.0;
@@ -152,7 +167,8 @@ impl<const D: usize> Direct<D> {
                 self.work.fill(0.0);
                 return Err(SolveError::NotFinite { row: self.normal.order[k] as usize });
             }
-            if pivot <= SUSPECT * diagonal && pivot <= self.noise(k, diagonal) {
+            let dropped = self.inv_pivot[k] == 0.0;
+            if dropped || (pivot <= SUSPECT * diagonal && pivot <= self.noise(k, diagonal)) {
                 self.inv_pivot[k] = 0.0;
                 self.redundant.push(self.normal.order[k]);
             } else {

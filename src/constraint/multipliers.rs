@@ -80,6 +80,26 @@ impl<const D: usize> Multipliers<D> {
         Ok(())
     }
 
+    /// The same, but rows that were redundant at the last ones stay so ([`Direct::prepare_alike`]): within a step, between
+    /// places where the constraints hold.
+    ///
+    /// # Errors
+    /// A gradient or mass that is not finite.
+    pub fn freeze_alike(
+        &mut self,
+        rows: &Rows<D>,
+        inverse_mass: &(impl InverseMass<D> + ?Sized),
+    ) -> Result<(), SolveError> {
+        self.frozen.assign_gradients(rows);
+        self.valid = false;
+        match &mut self.solver {
+            Solver::Direct(solver) => solver.prepare_alike(&self.frozen, inverse_mass)?,
+            Solver::ConjugateGradients(solver) => solver.prepare(&self.frozen, inverse_mass)?,
+        }
+        self.valid = true;
+        Ok(())
+    }
+
     /// The rows with the gradients of the last `freeze`; their values and curvatures are older.
     #[must_use]
     pub fn frozen(&self) -> &Rows<D> {

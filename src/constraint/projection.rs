@@ -177,14 +177,18 @@ impl<const D: usize> Multipliers<D> {
         configuration.evaluate(rows);
         let (mut evaluations, mut factorisations) = (1, 0);
         let (mut row, mut violation_m) = configuration.worst_violation(rows)?;
-        let mut stale = !self.valid;
+        let (mut stale, mut anew) = (!self.valid, false);
         for _ in 0..MAX_STEPS {
             if violation_m <= tolerance_m {
                 return Ok(Projected { evaluations, factorisations, violation_m });
             }
             let fresh = stale;
             if stale {
-                self.freeze(rows, inverse_mass)?;
+                if anew {
+                    self.freeze(rows, inverse_mass)?
+                } else {
+                    self.freeze_alike(rows, inverse_mass)?
+                }
                 factorisations += 1;
             }
             self.newton_step(inverse_mass, rows.values())?;
@@ -199,9 +203,10 @@ impl<const D: usize> Multipliers<D> {
                     stale = is_slow(violation_m, next_m, tolerance_m, patience);
                     (row, violation_m) = (next, next_m);
                 }
-                // With its own gradients a step must go down, if only a little. With older ones, that is why it did not.
-                None if fresh => break,
-                None => stale = true,
+                // With its own gradients a step must go down, if only a little. With older ones, that is why it did not; or
+                // because a row that was redundant no longer is.
+                None if fresh && (anew || self.redundant().is_empty()) => break,
+                None => (stale, anew) = (true, fresh),
             }
         }
         if violation_m <= tolerance_m {

@@ -144,6 +144,8 @@ impl<T: Real> Held<T> {
             principal,
         };
         held.meet(bodies)?;
+        // Which rows are redundant shows where the joints hold: here, and after every step.
+        held.freeze(bodies).map_err(|_| JointError::NotFinite { joint: 0 })?;
         Ok(held)
     }
 
@@ -155,6 +157,9 @@ impl<T: Real> Held<T> {
             let off = link.violation(&self.poses);
             // The size of a joint may be less than the rounding of its position.
             let allowed_rad = (allowed_m / link.size_m).min(MOST_ANGLE_RAD);
+            if !(off.gap_m + off.angle_rad).is_finite() {
+                return Err(JointError::NotFinite { joint });
+            }
             if !(off.gap_m <= allowed_m) {
                 return Err(JointError::Apart { joint, gap_m: off.gap_m, allowed_m });
             }
@@ -210,20 +215,15 @@ impl<T: Real> Held<T> {
             return Ok(());
         }
         self.frozen_at.0.clear();
-        self.factor()?;
-        self.frozen_at.0.extend_from_slice(&bodies.position);
-        self.frozen_at.1.clone_from(&bodies.rotor);
-        Ok(())
-    }
-
-    /// The same where the poses are.
-    fn factor(&mut self) -> Result<(), SolveError> {
         evaluate(&self.links, &self.poses, &mut self.rows);
         let Some(multipliers) = &mut self.multipliers else {
             return Ok(());
         };
-        multipliers.freeze(&self.rows, &self.masses).map_err(|error| unsolved(&self.links, error))?;
+        let frozen = multipliers.freeze(&self.rows, &self.masses);
+        frozen.map_err(|error| unsolved(&self.links, error))?;
         self.redundant = self.redundant.max(multipliers.redundant().len());
+        self.frozen_at.0.extend_from_slice(&bodies.position);
+        self.frozen_at.1.clone_from(&bodies.rotor);
         Ok(())
     }
 
@@ -243,8 +243,8 @@ impl<T: Real> Held<T> {
         }
         self.frozen_at.0.clear();
         self.follow(state, inertias);
-        self.factor()?;
         for link in &self.links {
+            link.evaluate(&self.poses, &mut self.rows);
             link.curve(&self.poses, &self.twists, &mut self.rows);
         }
         for (body_idx, (room, pose)) in self.room.iter_mut().zip(&self.poses).enumerate() {
@@ -282,12 +282,19 @@ impl<T: Real> Held<T> {
 
     /// From free accelerations the forces of the joints, body by body, in `room`.
     fn balance(&mut self) -> Result<(), SolveError> {
-        let Self { multipliers: Some(multipliers), rows, right_side, lambda, room, masses, .. } = self else {
+        let Self { multipliers: Some(multipliers), rows, right_side, lambda, room, masses, links, .. } = self else {
             return Ok(());
         };
+        // Within a step the joints are off by its error.
+        let frozen = multipliers.freeze_alike(rows, &*masses);
+        frozen.map_err(|error| unsolved(links, error))?;
         rows.times(|body_idx| room[body_idx], right_side);
         for (b, curvature) in right_side.iter_mut().zip(rows.curvatures()) {
             *b = -(*b + curvature);
+        }
+        // Of what is not finite the solution is not either, from the first row on.
+        if let Some(row) = right_side.iter().position(|b| !b.is_finite()) {
+            return Err(unsolved(links, SolveError::NotFinite { row }));
         }
         let solved = multipliers.solve_leaving(&*masses, right_side, lambda);
         room.fill([0.0; D]);
@@ -296,7 +303,7 @@ impl<T: Real> Held<T> {
                 *sum += force;
             }
         });
-        solved.map_err(|error| unsolved(&self.links, error))
+        solved.map_err(|error| unsolved(links, error))
     }
 
     /// Positions and orientations onto the joints, then momenta.

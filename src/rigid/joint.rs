@@ -97,7 +97,7 @@ pub enum JointError {
         joint: usize,
     },
     /// A point or axis that is none.
-    #[error("joint {joint}: a point, axis or length of it is not finite")]
+    #[error("joint {joint}: a point or an axis of it, or where its bodies are, is not finite")]
     NotFinite {
         /// Which.
         joint: usize,

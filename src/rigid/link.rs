@@ -30,7 +30,7 @@ pub(super) const D: usize = 6;
 const AXES: [Vector<f64>; 3] = [Vector::new(1.0, 0.0, 0.0), Vector::new(0.0, 1.0, 0.0), Vector::new(0.0, 0.0, 1.0)];
 
 /// Where a body is, and its principal axes in the world; or the world itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Pose {
     pub(super) position: Point<f64>,
     pub(super) axes: [Vector<f64>; 3],
@@ -81,7 +81,7 @@ pub(super) struct Twist {
 }
 
 /// One end of a joint: a point of a body, by its components along the principal axes, or of the world.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct End {
     pub(super) body_idx: Option<usize>,
     pub(super) arm: Vector<f64>,
@@ -102,8 +102,8 @@ impl End {
         }
     }
 
-    fn pose(&self, poses: &[Pose]) -> Pose {
-        self.body_idx.map_or(self.ground, |body_idx| poses[body_idx])
+    fn pose<'a>(&'a self, poses: &'a [Pose]) -> &'a Pose {
+        self.body_idx.map_or(&self.ground, |body_idx| &poses[body_idx])
     }
 
     fn twist(&self, twists: &[Twist]) -> Twist {
@@ -140,7 +140,7 @@ enum Kind {
 }
 
 /// A joint, ready to be evaluated.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Link {
     pub(super) a: End,
     pub(super) b: End,
@@ -182,7 +182,7 @@ impl Link {
         inertias: &[Inertia<T>],
     ) -> Self {
         let [a, b] = joint.ends().map(|end| End::new(end, principal));
-        let size_m = [a, b].iter().filter_map(|end| end.size_m(inertias)).fold(0.0, f64::max);
+        let size_m = [&a, &b].into_iter().filter_map(|end| end.size_m(inertias)).fold(0.0, f64::max);
         let kind = match *joint {
             Joint::Ball { .. } => Kind::Ball,
             Joint::Distance { length, .. } => Kind::Distance { length },
@@ -225,11 +225,11 @@ impl Link {
     /// Fills values and gradients.
     pub(super) fn evaluate(&self, poses: &[Pose], rows: &mut Rows<D>) {
         let (a, b) = (self.a.pose(poses), self.b.pose(poses));
-        let gap = self.gap(&a, &b);
+        let gap = self.gap(a, b);
         match self.kind {
-            Kind::Ball => self.fill_ball(rows, gap, &a, &b),
+            Kind::Ball => self.fill_ball(rows, gap, a, b),
             Kind::Hinge { axis_a, across, .. } => {
-                self.fill_ball(rows, gap, &a, &b);
+                self.fill_ball(rows, gap, a, b);
                 let u = a.to_world(axis_a);
                 for (v_b, index) in across.into_iter().zip(self.first_row + 3..) {
                     let v = b.to_world(v_b);
@@ -241,7 +241,7 @@ impl Link {
             Kind::Distance { length } => {
                 let distance = gap.norm_sq().sqrt();
                 let value = (distance - length) * (distance + length) / (2.0 * length);
-                self.fill_along(rows, self.first_row, value, gap / length, &a, &b);
+                self.fill_along(rows, self.first_row, value, gap / length, a, b);
             }
         }
     }
@@ -278,7 +278,7 @@ impl Link {
         let mut set = |index: usize, curvature: f64| *rows.row_mut(self.first_row + index).curvature = curvature;
         if let Kind::Distance { length } = self.kind {
             let speed = of_b.velocity + (r_b | of_b.omega) - of_a.velocity - (r_a | of_a.omega);
-            set(0, (speed.norm_sq() + (self.gap(&a, &b) | bent)) / length);
+            set(0, (speed.norm_sq() + (self.gap(a, b) | bent)) / length);
             return;
         }
         for (index, axis) in AXES.into_iter().enumerate() {
@@ -297,7 +297,7 @@ impl Link {
     /// How far it is from being held. Its rows alone would take opposite axes of a hinge for aligned ones.
     pub(super) fn violation(&self, poses: &[Pose]) -> Violation {
         let (a, b) = (self.a.pose(poses), self.b.pose(poses));
-        let gap_m = self.gap(&a, &b).norm_sq().sqrt();
+        let gap_m = self.gap(a, b).norm_sq().sqrt();
         match self.kind {
             Kind::Ball => Violation { gap_m, angle_rad: 0.0 },
             Kind::Distance { length } => Violation { gap_m: (gap_m - length).abs(), angle_rad: 0.0 },

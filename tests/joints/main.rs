@@ -1,0 +1,9 @@
+//! Bodies held by joints: the laws of their motion, closed forms, independent references, and what must not be held.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod cases;
+mod laws;
+mod loops;
+mod mistakes;
+mod pendulums;
+mod rattle;
