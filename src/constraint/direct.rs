@@ -40,19 +40,21 @@ const CONTRADICTION: f64 = 1.5e-8; // sqrt(f64::EPSILON)
 /// The direct solver of a fixed pattern of rows.
 #[derive(Clone, Debug)]
 pub struct Direct<const D: usize> {
-    normal: Normal<D>,
+    pub(super) normal: Normal<D>,
     /// L by columns, without its unit diagonal; rows ascending.
-    column_starts: Vec<u32>,
-    row: Vec<u32>,
-    factor: Vec<f64>,
+    pub(super) column_starts: Vec<u32>,
+    pub(super) row: Vec<u32>,
+    pub(super) factor: Vec<f64>,
     /// The pattern of L by rows, ascending.
     row_starts: Vec<u32>,
     column: Vec<u32>,
     /// 1 / d, 0 for a dropped row.
-    inv_pivot: Vec<f64>,
-    redundant: Vec<u32>,
+    pub(super) inv_pivot: Vec<f64>,
+    pub(super) redundant: Vec<u32>,
     /// The smallest `d_k / a_kk` that was kept.
-    weakest: f64,
+    pub(super) weakest: f64,
+    /// Room for the dependences of redundant rows.
+    pub(super) shares: Vec<f64>,
     filled: Vec<u32>,
     work: Vec<f64>,
     residual: Vec<f64>,
@@ -110,6 +112,7 @@ impl<const D: usize> Direct<D> {
             inv_pivot: vec![1.0; n],
             redundant: Vec::with_capacity(n),
             weakest: 1.0,
+            shares: Vec::new(),
             filled,
             work: vec![0.0; n],
             residual: vec![0.0; n],
@@ -142,7 +145,8 @@ impl<const D: usize> Direct<D> {
     /// A gradient or mass that is not finite.
     pub fn prepare(&mut self, rows: &Rows<D>, inverse_mass: &(impl InverseMass<D> + ?Sized)) -> Result<(), SolveError> {
         self.inv_pivot.fill(1.0);
-        self.prepare_alike(rows, inverse_mass)
+        self.prepare_alike(rows, inverse_mass)?;
+        if self.exchange() { self.prepare_alike(rows, inverse_mass) } else { Ok(()) }
     }
 
     /// The same at gradients near the last ones, dropping what was dropped there too. Rows that depend on each other

@@ -41,6 +41,7 @@ mod multipliers;
 mod normal;
 mod preconditioner;
 mod projection;
+mod redundant;
 mod rows;
 
 pub use direct::Direct;

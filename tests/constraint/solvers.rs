@@ -116,6 +116,33 @@ fn redundant_rows_are_named_and_contradictions_refused() {
     assert!(matches!(error, SolveError::Contradiction { row: 2 | 5, excess } if (excess.abs() - 1e-3).abs() < 1e-12));
 }
 
+/// One particle, three directions in a plane, two of them nearly the same: one of these two is the one to drop, whatever the
+/// order of elimination. Slightly out of the plane the third dimension is no row's, until one asks anew.
+#[test]
+fn the_row_that_is_dropped_leaves_the_most_independent_ones() {
+    for turn in 0..3 {
+        let mut rows = Rows::<3>::new(2, [vec![0], vec![0], vec![0], vec![1]]);
+        let directions = [[1.0, 0.0, 0.0], [1.0, 1e-4, 0.0], [0.0, 1.0, 0.0]];
+        for (index, direction) in directions.into_iter().enumerate() {
+            rows.row_mut((index + turn) % 3).gradients[0] = direction;
+        }
+        // A row of nothing that moves is redundant as well, and remains so.
+        rows.row_mut(3).gradients[0] = [1.0, 0.0, 0.0];
+        let w: &[f64] = &[1.0, 0.0];
+        let mut solver = Direct::new(&rows, w);
+        solver.prepare(&rows, w).unwrap();
+        let mut dropped: Vec<usize> = solver.redundant().iter().map(|row| *row as usize).collect();
+        dropped.sort_unstable();
+        assert!(dropped.len() == 2 && dropped[1] == 3 && dropped[0] != (2 + turn) % 3, "turn {turn}: {dropped:?}");
+
+        rows.row_mut(dropped[0]).gradients[0][2] = 1e-5;
+        solver.prepare_alike(&rows, w).unwrap();
+        assert_eq!(solver.rank(), 2);
+        solver.prepare(&rows, w).unwrap();
+        assert_eq!(solver.rank(), 3);
+    }
+}
+
 /// A light chain with a heavy bob at rest: link i carries what hangs below it.
 #[test]
 fn mass_ratios_of_a_million_million_keep_their_digits() {

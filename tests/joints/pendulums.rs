@@ -65,7 +65,7 @@ fn a_compound_pendulum_has_the_period_of_the_elliptic_integral() {
         let (case, moment, mass_times_distance) = pendulum(amplitude_rad);
         let expected_s = period(amplitude_rad, moment, mass_times_distance);
         let mut world = case.world();
-        let composed = quarter(&case, expected_s / 1201.0, |bodies, h_s| {
+        let composed = quarter(&case, expected_s / 801.0, |bodies, h_s| {
             rattle_step(&mut world, bodies, Composition::Yoshida6, h_s);
         });
         let mut method = RungeKutta::<Dop853, _, f64>::new(case.bodies.clone(), case.bodies.zero_rates());
@@ -107,14 +107,14 @@ fn a_double_pendulum_moves_by_lagranges_equations() {
         *rate = [v_1, v_2, (beta * b[0] - off * b[1]) / determinant, (alpha * b[1] - off * b[0]) / determinant];
     };
     let mut reference = Fixed::<Dop853, _, f64>::new(0.0, [start[0], start[1], 0.0, 0.0], [0.0; 4], 1e-3).unwrap();
-    for _ in 0..2000 {
+    for _ in 0..1000 {
         reference.step(&mut equations).unwrap();
     }
     let y = *reference.state();
     let expected = along(y[0], length) + along(y[1], arm[1]);
     let error = |end: &Bodies<f64>| (end.position[b].position() - expected).norm_sq().sqrt();
-    let stepped = error(&run::<Dop853>(&case, (5e-3, 400), true));
-    let composed = error(&crate::cases::after(&case, Composition::Yoshida6, 2.5e-3, 800));
+    let stepped = error(&run::<Dop853>(&case, (5e-3, 200), true));
+    let composed = error(&crate::cases::after(&case, Composition::Yoshida6, 2.5e-3, 400));
     println!("Dop853 {stepped:e} m, Yoshida6 {composed:e} m");
     assert!(stepped < 1e-9 && composed < 1e-8, "Dop853 {stepped:e} m, Yoshida6 {composed:e} m");
 }
@@ -152,7 +152,7 @@ fn a_top_on_a_ball_joint_precesses_steadily() {
     let (half, weight) = (0.5 * c * spin, TOP_MASS * GRAVITY * TOP_ARM);
     let slow = weight / (half + (half * half - a * weight * inclination_rad.cos()).sqrt());
     let case = top(inclination_rad, spin - slow * inclination_rad.cos(), slow);
-    let (steps, h_s) = (2000, 1e-3);
+    let (steps, h_s) = (600, 1e-3);
     let end = crate::cases::after(&case, Composition::Yoshida6, h_s, steps);
     let position = end.position[0];
     let angle = (position.y.atan2(position.x) - slow * h_s * f64::from(steps)).rem_euclid(std::f64::consts::TAU);
@@ -178,14 +178,14 @@ fn a_top_that_nods_moves_by_its_equations_in_eulers_angles() {
         *rate = [precession, y[2], torque / a];
     };
     let mut reference = Fixed::<Dop853, _, f64>::new(0.0, [0.0, inclination_rad, 0.0], [0.0; 3], 1e-3).unwrap();
-    for _ in 0..1500 {
+    for _ in 0..600 {
         reference.step(&mut equations).unwrap();
     }
     let [phi, theta, _] = *reference.state();
     let expected = vector([theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]) * TOP_ARM;
     let error = |end: &Bodies<f64>| (end.position[0].position() - expected).norm_sq().sqrt() / TOP_ARM;
-    let stepped = error(&run::<Dop853>(&case, (2e-3, 750), true));
-    let composed = error(&crate::cases::after(&case, Composition::Yoshida6, 1e-3, 1500));
+    let stepped = error(&run::<Dop853>(&case, (2e-3, 300), true));
+    let composed = error(&crate::cases::after(&case, Composition::Yoshida6, 1e-3, 600));
     println!("after {phi} rad of precession: Dop853 {stepped:e} rad, Yoshida6 {composed:e} rad");
     assert!(stepped < 1e-9 && composed < 1e-9, "{stepped:e} {composed:e}");
 }
