@@ -95,11 +95,11 @@ struct Setup<T> {
     restitution: T,
 }
 
-/// A world whose bodies move exactly between kicks, in steps of 0.01 s.
+/// A world whose bodies move exactly.
 fn world<T: Real>(setup: Setup<T>) -> World<T> {
     let Setup { bodies, inertias, colliders, forces, restitution } = setup;
     let subject = rigid::Setup { inertias, forces, joints: vec![] };
-    let motion = Motion::new(subject, &bodies, &Solver::fixed(Method::Yoshida6, 0.01)).unwrap();
+    let motion = Motion::new(subject, &bodies, &Solver::fixed(Method::FreeFlight, 0.01)).unwrap();
     World::new(simulation::Setup { bodies, colliders, restitution }, motion)
 }
 
