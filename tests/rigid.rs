@@ -9,7 +9,7 @@ use ga_physics::ode::{OdeError, Rk4, RungeKutta};
 use ga_physics::rigid::rotor::{self, Rates};
 use ga_physics::rigid::{
     Attachment, Bodies, Force, Forces, Inertia, InertiaError, Method, Motion, MotionError, Setup, Solver, SolverError,
-    Wrenches, totals,
+    Steps, Wrenches, totals,
 };
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -257,6 +257,22 @@ fn principal_axes_make_the_inertia_diagonal() {
         let along = inertia.principal.axes.apply(Bivector::from(unit));
         let off = inertia.momentum_of(along) - along * inertia.principal.moments[axis];
         assert!(off.norm_sq().sqrt() < 4e-15, "axis {axis}: {off:?}");
+    }
+}
+
+#[test]
+fn steps_by_a_tolerance_do_not_cross_the_end_of_a_force() {
+    // Between the frames at 0.1 s, and on one: a step that went past is not gone on from.
+    let tolerance = ga_physics::ode::Tolerance { rtol: 1e-10, atol: 1e-10 };
+    for end_s in [0.25, 0.3] {
+        let (mut bodies, inertias) = spinning(1.0, [1.0; 3], [0.0; 3]);
+        let torque_world = Bivector::new(0.0, 0.0, 2.0);
+        let push = Force::Torque { body_idx: 0, torque_world, start_s: 0.0, end_s };
+        let setup = Setup { inertias, forces: Forces { forces: vec![push], ..Forces::default() }, joints: vec![] };
+        let solver = Solver::fixed(Method::Tsit5, 0.1).with_steps(Steps::Adaptive { tolerance });
+        let mut motion = Motion::new(setup, &bodies, &solver).unwrap();
+        (0..10).for_each(|frame| motion.advance(&mut bodies, f64::from(frame) * 0.1, 0.1).unwrap());
+        assert!((bodies.angular_momentum[0].e12 - 2.0 * end_s).abs() < 1e-14, "{:?}", bodies.angular_momentum[0]);
     }
 }
 

@@ -175,7 +175,9 @@ impl<T: Real> Part<T> {
         for to_s in self.system.setup.forces.switches_within(t_s, end_s).into_iter().chain([end_s]) {
             // The only piece is the span itself, not a difference of absolute times, which would lose its digits.
             let piece_s = if from_s == t_s && to_s == end_s { span_s } else { to_s - from_s };
-            self.system.select(from_s, to_s);
+            if self.system.select(from_s, to_s) {
+                self.method.restart();
+            }
             self.method.advance(&mut self.system, bodies, from_s, piece_s)?;
             from_s = to_s;
         }

@@ -17,6 +17,9 @@ pub(super) trait Advance<T: Real>: Send + Sync {
         span_s: f64,
     ) -> Result<(), OdeError<MotionError>>;
 
+    /// Other forces act from here on: a step that went past this time is of no use.
+    fn restart(&mut self) {}
+
     /// What it has cost.
     fn work(&self) -> Work;
 }
@@ -183,6 +186,10 @@ where
         self.out.write_to(bodies);
         self.last = Some((end_s, bodies.clone()));
         Ok(())
+    }
+
+    fn restart(&mut self) {
+        self.last = None;
     }
 
     fn work(&self) -> Work {

@@ -111,11 +111,16 @@ impl<T: Real> System<T> {
         self.redirected
     }
 
-    /// Lets those forces act that act in a span; none must switch within it.
-    pub fn select(&mut self, from_s: f64, to_s: f64) {
-        self.acting.clear();
+    /// Lets those forces act that act in a span; none must switch within it. Whether they are others than before.
+    pub fn select(&mut self, from_s: f64, to_s: f64) -> bool {
         let forces = self.setup.forces.forces.iter().enumerate();
-        self.acting.extend(forces.filter(|(_, force)| force.acts_in(from_s, to_s)).map(|(index, _)| index));
+        let acting = forces.filter(|(_, force)| force.acts_in(from_s, to_s)).map(|(index, _)| index);
+        if acting.clone().eq(self.acting.iter().copied()) {
+            return false;
+        }
+        self.acting.clear();
+        self.acting.extend(acting);
+        true
     }
 
     /// What the forces, without joints, do in a state.

@@ -90,12 +90,7 @@ impl Case {
 
     pub(crate) fn world(&self) -> World {
         let held = Held::new(&self.joints, &self.bodies, &self.inertias, 1e-12).unwrap();
-        World {
-            inertias: self.inertias.clone(),
-            held,
-            wrenches: weights(&self.inertias),
-            redirected: 0,
-        }
+        World { inertias: self.inertias.clone(), held, wrenches: weights(&self.inertias), redirected: 0 }
     }
 
     pub(crate) fn energy(&self, bodies: &Bodies<f64>) -> f64 {
