@@ -125,7 +125,7 @@ fn the_separatrix_is_hyperbolic() {
 fn nearer_and_nearer_to_the_separatrix() {
     let moments = [1.0, 2.0, 3.0];
     let (a1, a3) = (1.0_f64 / 6.0, 0.5_f64);
-    for exponent in 1..=15 {
+    for exponent in (1..=15).step_by(2) {
         for sign in [1.0, -1.0] {
             let distance = sign * 10.0_f64.powi(-exponent);
             let direction = [0.5 * (a1 / a3).sqrt(), 0.3, 0.5 * (1.0 + distance)];
@@ -133,9 +133,9 @@ fn nearer_and_nearer_to_the_separatrix() {
             let motion = spun.motion();
             let start = energy(&spun.body, spun.rotor, spun.momentum);
             let mut exact = spun.reference();
-            for step in 1..=8 {
-                exact.advance(10.0);
-                let t = 10.0 * f64::from(step);
+            for step in 1..=4 {
+                exact.advance(15.0);
+                let t = 15.0 * f64::from(step);
                 let error = exact.angle_to(motion.at(t));
                 let bound = 16.0 * EPS * (1.0 / distance.abs() + t) * t;
                 assert!(error < bound, "{distance:e} at {t}: {error:e} of {bound:e}");

@@ -4,6 +4,7 @@
 mod cases;
 mod extremes;
 mod reference;
+mod splitting;
 
 use ga_physics::algebra::Real;
 use ga_physics::algebra::g3::{Bivector, Rotor};
