@@ -1,20 +1,27 @@
-//! Rigid bodies.
+//! Rigid bodies: the exact free motion, and a step of every formulation.
 //!
 //! ```sh
-//! cargo bench --bench rigid --no-default-features --features physics
+//! cargo bench --bench rigid --no-default-features --features study
 //! ```
 //!
 //! `free motion` is a step of a body that nothing turns, of moments 1, 2, 3, spun about its middle axis:
 //! RK4 on a quaternion by nalgebra, with renormalisation, is what the others are held against. Every step starts from the
 //! end of the one before, but for `at`, which has no steps and is asked for the attitude at their ends.
+//!
+//! `formulations` steps such bodies, which also fly, by RK4 with `rotor::advance` and its siblings, and by the methods on
+//! groups: one body, and a hundred that lie one after the other in the arrays.
 #![allow(missing_docs, reason = "the macro's main function has no place for them")]
 #![allow(clippy::unwrap_used, reason = "a bench may panic")]
 
-use criterion::{Criterion, criterion_group, criterion_main};
-use ga_physics::algebra::g3::{Bivector, Rotor};
-use ga_physics::ode::Composition;
+use criterion::{Bencher, Criterion, Throughput, criterion_group, criterion_main};
+use ga_physics::algebra::cga::Point;
+use ga_physics::algebra::g3::{Bivector, Rotor, Vector};
+use ga_physics::ode::lie::{CommutatorFree4, LieMethod, LieRungeKutta, LieState, Rkmk4};
+use ga_physics::ode::{Composition, Rk4, RungeKutta};
 use ga_physics::rigid::free::{self, FreeMotion};
-use ga_physics::rigid::{Inertia, axis_splitting};
+use ga_physics::rigid::{
+    Bodies, Formulation, Inertia, Method, Setup, Solver, System, axis_splitting, matrix, motor, quaternion, rotor,
+};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use std::hint::black_box;
 
@@ -98,5 +105,60 @@ fn free_motion(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, free_motion);
+fn setting(count: usize) -> (Bodies<f64>, System<f64>) {
+    let (inertia, spin) = body();
+    let mut bodies = Bodies::default();
+    for _ in 0..count {
+        bodies.push(Point::origin(), Rotor::default(), Vector::new(0.1, 0.2, 0.3), spin);
+    }
+    let setup = Setup { inertias: vec![inertia; count], ..Setup::default() };
+    let system = System::new(setup, &bodies, &Solver::fixed(Method::Rk4, DT_S)).unwrap();
+    (bodies, system)
+}
+
+fn formulations(criterion: &mut Criterion) {
+    for count in [1, 100] {
+        let mut group = criterion.benchmark_group(format!("formulations, {count} bodies"));
+        group.throughput(Throughput::Elements(count as u64));
+        macro_rules! formulation {
+            ($module:ident, $state:ty) => {
+                group.bench_function(concat!(stringify!($module), " rk4"), |bencher| {
+                    let (bodies, mut system) = setting(count);
+                    let mut state = <$state>::from_bodies(&bodies);
+                    let mut rk4 = RungeKutta::<Rk4, $state, f64>::new(state.clone(), state.zero_rates());
+                    bencher.iter(|| $module::advance(&mut state, &mut rk4, &mut system, 0.0, black_box(DT_S)).unwrap());
+                });
+            };
+        }
+        formulation!(matrix, matrix::State<f64>);
+        formulation!(quaternion, quaternion::State<f64>);
+        formulation!(rotor, Bodies<f64>);
+        formulation!(motor, motor::State<f64>);
+        group.bench_function("rotor rkmk4", |bencher| on_group::<Rkmk4, Bodies<f64>>(bencher, count));
+        group.bench_function("motor rkmk4", |bencher| on_group::<Rkmk4, motor::State<f64>>(bencher, count));
+        group.bench_function("rotor commutator_free", |bencher| {
+            on_group::<CommutatorFree4, Bodies<f64>>(bencher, count)
+        });
+        group.bench_function("motor commutator_free", |bencher| {
+            on_group::<CommutatorFree4, motor::State<f64>>(bencher, count);
+        });
+        group.finish();
+    }
+}
+
+/// A step by exponentials, then the same renormalisation.
+fn on_group<M: LieMethod, F: Formulation<f64> + LieState<f64>>(bencher: &mut Bencher<'_>, count: usize)
+where
+    F::Rate: Clone,
+{
+    let (bodies, mut system) = setting(count);
+    let mut state = F::from_bodies(&bodies);
+    let mut method = LieRungeKutta::<M, F, f64>::new(state.clone(), state.zero_rates());
+    bencher.iter(|| {
+        method.step(&mut state, 0.0, black_box(DT_S), &mut system).unwrap();
+        state.renormalise().unwrap()
+    });
+}
+
+criterion_group!(benches, free_motion, formulations);
 criterion_main!(benches);
