@@ -7,24 +7,17 @@
 //!
 //! In mechanics without bivectors `<Omega L>_2` is `-omega x L`.
 //!
-//! RATTLE on bodies (Andersen 1983; Hairer, Lubich and Wanner, *Geometric Numerical Integration*, VII.5): impulses
-//! `J^T mu` at the start, along the gradients there, such that the free motion that follows ends on the joints,
-//! `C(q(h; p + J^T mu)) = 0`. A free body turns, so this is not linear in mu; Newton's method with the factor of the start
-//! finds it all the same, every trial being a free motion. With kicks before and after, and velocities projected at the
-//! end of a step, it is symmetric, symplectic and of order 2, and its compositions are of order 4 and 6.
-//!
 //! Redundant rows (a planar four-bar of hinges has three) are found and get no force; see [`Held::redundant`].
 //! In errors the row of a constraint is the index of a joint.
 
 use super::joint::check;
-use super::jointed::{Drift, Masses, Poses, evaluate, place};
+use super::jointed::{Masses, Poses, evaluate, place, unprojected, unsolved};
 use super::link::{D, Link, Pose, Twist, join, part};
 use super::{Bodies, Formulation, Inertia, Joint, JointError, Wrenches};
 use crate::algebra::Real;
 use crate::algebra::cga::Point;
 use crate::algebra::g3::Rotor;
 use crate::constraint::{InverseMass, Method, Multipliers, ProjectionError, Rows, SolveError};
-use crate::ode::State;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -40,59 +33,33 @@ const ARM_EPS: f64 = 8.0;
 /// been through a handful of operations more than a projection leaves.
 const START_FACTOR: f64 = 16.0;
 
-/// Steps whose squares grow by more than this begin without the last multipliers, as for particles.
-const MAX_WARM: f64 = 4.0;
-
 /// Axes that differ by more are never taken for parallel, however small the joint: a tenth of a degree.
 const MOST_ANGLE_RAD: f64 = 2e-3;
 
 /// Joints as rows, their multipliers, and room for both.
 #[derive(Clone, Debug)]
 pub struct Held<T> {
-    links: Vec<Link>,
-    rows: Rows<D>,
-    multipliers: Option<Multipliers<D>>,
-    masses: Masses,
+    pub(super) links: Vec<Link>,
+    pub(super) rows: Rows<D>,
+    pub(super) multipliers: Option<Multipliers<D>>,
+    pub(super) masses: Masses,
     /// From the principal axes of a body to its own.
-    principal: Vec<Rotor<f64>>,
+    pub(super) principal: Vec<Rotor<f64>>,
     /// Where the bodies are; `start` at the beginning of a drift.
-    poses: Vec<Pose>,
-    start: Vec<Pose>,
+    pub(super) poses: Vec<Pose>,
+    pub(super) start: Vec<Pose>,
     twists: Vec<Twist>,
     lambda: Vec<f64>,
     right_side: Vec<f64>,
-    room: Vec<[f64; D]>,
-    before: Bodies<T>,
+    pub(super) room: Vec<[f64; D]>,
+    pub(super) before: Bodies<T>,
     /// Where the rows were evaluated and the multipliers frozen; empty if elsewhere.
-    frozen_at: (Vec<Point<f64>>, Vec<Rotor<T>>),
+    pub(super) frozen_at: (Vec<Point<f64>>, Vec<Rotor<T>>),
     violation_m: f64,
     longest_arm_m: f64,
     /// The step of the last drift, s; 0 for none.
-    last_h_s: f64,
+    pub(super) last_h_s: f64,
     redundant: usize,
-}
-
-/// Of a row, the joint.
-fn joint_of(links: &[Link], row: usize) -> usize {
-    links.partition_point(|link| link.first_row <= row).saturating_sub(1)
-}
-
-/// The same error, with the joint in place of the row.
-fn unsolved(links: &[Link], error: SolveError) -> SolveError {
-    match error {
-        SolveError::NotFinite { row } => SolveError::NotFinite { row: joint_of(links, row) },
-        SolveError::Contradiction { row, excess } => SolveError::Contradiction { row: joint_of(links, row), excess },
-    }
-}
-
-fn unprojected(links: &[Link], error: ProjectionError) -> ProjectionError {
-    match error {
-        ProjectionError::NotConverged { row, violation_m, evaluations } => {
-            ProjectionError::NotConverged { row: joint_of(links, row), violation_m, evaluations }
-        }
-        ProjectionError::NoGradient { row } => ProjectionError::NoGradient { row: joint_of(links, row) },
-        ProjectionError::Solve(error) => ProjectionError::Solve(unsolved(links, error)),
-    }
 }
 
 impl<T: Real> Held<T> {
@@ -204,12 +171,12 @@ impl<T: Real> Held<T> {
         POSITION_EPS * f64::EPSILON * farthest + ARM_EPS * T::EPSILON.to_f64() * self.longest_arm_m
     }
 
-    fn tolerance_m(&self, bodies: &Bodies<T>) -> f64 {
+    pub(super) fn tolerance_m(&self, bodies: &Bodies<T>) -> f64 {
         self.violation_m.max(self.rounding_m(bodies))
     }
 
     /// Evaluates the rows where the bodies are and factors `J W J^T`, unless they were there last.
-    fn freeze(&mut self, bodies: &Bodies<T>) -> Result<(), SolveError> {
+    pub(super) fn freeze(&mut self, bodies: &Bodies<T>) -> Result<(), SolveError> {
         place(bodies, &self.principal, &mut self.poses);
         if self.frozen_at.0 == bodies.position && self.frozen_at.1 == bodies.rotor {
             return Ok(());
@@ -345,48 +312,5 @@ impl<T: Real> Held<T> {
             }
             Err(error) => Err(unsolved(&self.links, error)),
         }
-    }
-
-    /// The drift of RATTLE: momenta are changed along the joints' gradients at the start such that the free motion over h
-    /// ends on the joints, and the bodies are taken there. `drift` is the free motion of all bodies. Whether such impulses
-    /// were found; if not, the joints are held by impulses along later gradients, which is not symmetric.
-    ///
-    /// # Errors
-    /// See [`ProjectionError`]. The bodies are then anywhere: go back to a copy.
-    pub fn shake(
-        &mut self,
-        bodies: &mut Bodies<T>,
-        inertias: &[Inertia<T>],
-        h_s: f64,
-        drift: impl Fn(&mut Bodies<T>, &[Inertia<T>], f64),
-    ) -> Result<bool, ProjectionError> {
-        if self.is_empty() || h_s == 0.0 {
-            drift(bodies, inertias, h_s);
-            return Ok(true);
-        }
-        self.freeze(bodies)?;
-        let tolerance_m = self.tolerance_m(bodies);
-        self.before.assign(bodies);
-        self.start.clone_from(&self.poses);
-        self.room.fill([0.0; D]);
-        // Displacements go with the square of the step; of a very different one they tell nothing.
-        let squared = (h_s / self.last_h_s).powi(2);
-        let warm = if squared < MAX_WARM { squared } else { 0.0 };
-        self.last_h_s = h_s;
-        let Self { multipliers: Some(multipliers), rows, masses, links, principal, poses, start, before, room, .. } =
-            self
-        else {
-            return Ok(true);
-        };
-        let (masses, total) = (&*masses, room);
-        let mut end = Drift { links, principal, masses, inertias, before, start, bodies, poses, total, h_s, drift };
-        let projected = multipliers.project_along_frozen(rows, masses, &mut end, tolerance_m, warm);
-        let straight = matches!(&projected, Ok(projected) if projected.factorisations == 0);
-        if !straight {
-            // Also after an error: the factor may be that of another place.
-            self.frozen_at.0.clear();
-        }
-        projected.map_err(|error| unprojected(&self.links, error))?;
-        Ok(straight)
     }
 }

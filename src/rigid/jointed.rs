@@ -1,4 +1,4 @@
-//! Jointed bodies as what a projection moves: where they are, or where a free motion takes them.
+//! Jointed bodies as what a projection moves; their masses; what their joints are called in errors.
 //!
 //! Coordinates as for the rows of joints: the displacement in the world, the rotation vector along the principal axes.
 
@@ -7,7 +7,6 @@ use super::{Bodies, Inertia};
 use crate::algebra::Real;
 use crate::algebra::g3::{Bivector, Rotor, Vector};
 use crate::constraint::{Configuration, InverseMass, ProjectionError, Rows, SolveError};
-use crate::ode::State;
 use alloc::vec::Vec;
 
 /// Masses and principal moments; 0 is immovable.
@@ -78,7 +77,7 @@ pub(super) fn evaluate(links: &[Link], poses: &[Pose], rows: &mut Rows<D>) {
 }
 
 /// The worst joint, by its first row.
-fn worst(links: &[Link], poses: &[Pose]) -> Result<(usize, f64), ProjectionError> {
+pub(super) fn worst(links: &[Link], poses: &[Pose]) -> Result<(usize, f64), ProjectionError> {
     let mut worst = (0, 0.0);
     for link in links {
         let violation_m = link.violation_m(poses);
@@ -118,42 +117,25 @@ impl<T: Real> Configuration<D> for Poses<'_, T> {
     }
 }
 
-/// The end of a free motion as what a projection moves, by impulses at its start.
-pub(super) struct Drift<'a, T, F> {
-    pub(super) links: &'a [Link],
-    pub(super) principal: &'a [Rotor<f64>],
-    pub(super) masses: &'a Masses,
-    pub(super) inertias: &'a [Inertia<T>],
-    pub(super) before: &'a Bodies<T>,
-    pub(super) start: &'a [Pose],
-    pub(super) bodies: &'a mut Bodies<T>,
-    pub(super) poses: &'a mut Vec<Pose>,
-    /// The displacements asked for so far: h times the changes of velocity at the start.
-    pub(super) total: &'a mut [[f64; D]],
-    pub(super) h_s: f64,
-    pub(super) drift: F,
+/// Of a row, the joint.
+fn joint_of(links: &[Link], row: usize) -> usize {
+    links.partition_point(|link| link.first_row <= row).saturating_sub(1)
 }
 
-impl<T: Real, F: Fn(&mut Bodies<T>, &[Inertia<T>], f64)> Configuration<D> for Drift<'_, T, F> {
-    fn evaluate(&mut self, rows: &mut Rows<D>) {
-        self.bodies.assign(self.before);
-        for (body_idx, (total, pose)) in self.total.iter().zip(self.start).enumerate() {
-            self.masses.push(body_idx, self.bodies, pose, total.map(|x| x / self.h_s));
-        }
-        (self.drift)(self.bodies, self.inertias, self.h_s);
-        place(self.bodies, self.principal, self.poses);
-        evaluate(self.links, self.poses, rows);
+/// The same error, with the joint in place of the row.
+pub(super) fn unsolved(links: &[Link], error: SolveError) -> SolveError {
+    match error {
+        SolveError::NotFinite { row } => SolveError::NotFinite { row: joint_of(links, row) },
+        SolveError::Contradiction { row, excess } => SolveError::Contradiction { row: joint_of(links, row), excess },
     }
+}
 
-    fn displace(&mut self, displacement: &[[f64; D]]) {
-        for (total, by) in self.total.iter_mut().zip(displacement) {
-            for (total, by) in total.iter_mut().zip(by) {
-                *total += by;
-            }
+pub(super) fn unprojected(links: &[Link], error: ProjectionError) -> ProjectionError {
+    match error {
+        ProjectionError::NotConverged { row, violation_m, evaluations } => {
+            ProjectionError::NotConverged { row: joint_of(links, row), violation_m, evaluations }
         }
-    }
-
-    fn worst_violation(&self, _rows: &Rows<D>) -> Result<(usize, f64), ProjectionError> {
-        worst(self.links, self.poses)
+        ProjectionError::NoGradient { row } => ProjectionError::NoGradient { row: joint_of(links, row) },
+        ProjectionError::Solve(error) => ProjectionError::Solve(unsolved(links, error)),
     }
 }

@@ -24,6 +24,7 @@ mod motion;
 pub mod motor;
 pub mod quaternion;
 pub mod rotor;
+mod shake;
 mod stepping;
 mod sums;
 mod system;

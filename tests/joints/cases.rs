@@ -5,9 +5,7 @@ use ga_physics::algebra::g3::{Bivector, Rotor, Vector};
 use ga_physics::constraint::ProjectionError;
 use ga_physics::ode::{Composition, Mechanics, RungeKutta, Stepper, Symplectic, System, Tableau};
 use ga_physics::rigid::rotor::Rates;
-use ga_physics::rigid::{
-    Attachment, Bodies, Forces, Formulation, Held, Inertia, Joint, Wrenches, axis_splitting, totals,
-};
+use ga_physics::rigid::{Attachment, Bodies, Forces, Formulation, Held, Inertia, Joint, Wrenches, free, totals};
 
 pub(crate) const GRAVITY: f64 = 9.81;
 
@@ -148,7 +146,7 @@ impl Mechanics<Bodies<f64>, f64> for World {
     }
 
     fn drift(&mut self, _: f64, state: &mut Bodies<f64>, h_s: f64) -> Result<(), ProjectionError> {
-        let straight = self.held.shake(state, &self.inertias, h_s, free)?;
+        let straight = self.held.shake(state, &self.inertias, h_s, fly)?;
         self.redirected += u32::from(!straight);
         Ok(())
     }
@@ -159,12 +157,12 @@ impl Mechanics<Bodies<f64>, f64> for World {
 }
 
 /// The free motion of all bodies.
-pub(crate) fn free(bodies: &mut Bodies<f64>, inertias: &[Inertia<f64>], h_s: f64) {
+pub(crate) fn fly(bodies: &mut Bodies<f64>, inertias: &[Inertia<f64>], h_s: f64) {
     for (body_idx, inertia) in inertias.iter().enumerate() {
         let velocity = bodies.velocity(body_idx, inertia);
         bodies.position[body_idx] = bodies.position[body_idx].moved(velocity * h_s);
         let (rotor, momentum) = (bodies.rotor[body_idx], bodies.angular_momentum[body_idx]);
-        bodies.rotor[body_idx] = axis_splitting::turn(inertia, rotor, momentum, h_s);
+        bodies.rotor[body_idx] = free::turn(inertia, rotor, momentum, h_s);
     }
 }
 

@@ -74,13 +74,13 @@ fn a_four_bar_moves_although_it_is_overdetermined() {
         let (mut stepper, mut world) = rattle(&case, Composition::Yoshida6, 4e-3);
         let energy = case.energy(&case.bodies);
         let (mut violation_m, mut off, mut moved) = (0.0_f64, 0.0_f64, 0.0_f64);
-        for _ in 0..250 {
+        for _ in 0..150 {
             stepper.step(&mut world).unwrap();
             violation_m = violation_m.max(world.held.worst_violation(stepper.state()).unwrap().1);
             off = off.max((case.energy(stepper.state()) - energy).abs());
             moved = moved.max(distance(stepper.state(), &case.bodies));
         }
-        let stepped = distance(stepper.state(), &run::<Dop853>(&case, (4e-3, 250), true));
+        let stepped = distance(stepper.state(), &run::<Dop853>(&case, (4e-3, 150), true));
         println!("{name}: {violation_m:e} m, energy {off:e} of {energy} J, moved {moved} m, from Dop853 {stepped:e} m");
         assert_eq!((world.held.redundant(), world.redirected), (3, 0), "{name}");
         assert!(violation_m < 1e-12 && off < 1e-6 && moved > 0.3, "{name}: {violation_m:e} {off:e} {moved}");
@@ -115,14 +115,13 @@ fn a_minute_leaves_the_joints_held_and_the_energy_bounded() {
     let case = medley();
     let energy = case.energy(&case.bodies);
     let (mut stepper, mut world) = rattle(&case, Composition::Verlet, 0.01);
-    let (mut violation_m, mut halves) = (0.0_f64, [0.0_f64; 2]);
-    for step in 0..6000 {
+    let (mut violation_m, mut off) = (0.0_f64, 0.0_f64);
+    for _ in 0..6000 {
         stepper.step(&mut world).unwrap();
         violation_m = violation_m.max(world.held.worst_violation(stepper.state()).unwrap().1);
-        let off = &mut halves[step / 3000];
-        *off = off.max((case.energy(stepper.state()) - energy).abs());
+        off = off.max((case.energy(stepper.state()) - energy).abs());
     }
-    println!("{violation_m:e} m, energy within {halves:?} J in both halves, {} redirected", world.redirected);
-    assert!(violation_m < 1e-12, "{violation_m:e}");
-    assert!(halves[1] < 2.0 * halves[0] && halves[0] < 1.0, "{halves:?}");
+    println!("{violation_m:e} m, energy within {off} J, {} redirected", world.redirected);
+    // Bodies of 2 kg rise and fall by a metre. The motion is chaotic: what the energy is off by depends on every rounding.
+    assert!(violation_m < 1e-12 && off < 0.5, "{violation_m:e} m, {off} J");
 }
