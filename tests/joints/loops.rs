@@ -12,7 +12,7 @@ fn rod(mass: f64, length: f64) -> Inertia<f64> {
 }
 
 /// A body between two points.
-fn link(case: &mut Case, from: Vector<f64>, to: Vector<f64>) -> usize {
+pub(crate) fn link(case: &mut Case, from: Vector<f64>, to: Vector<f64>) -> usize {
     let along = to - from;
     let length = along.norm_sq().sqrt();
     // Half of the way from x to the link, twice: `R = (along + x) x`, normalised.
@@ -22,7 +22,7 @@ fn link(case: &mut Case, from: Vector<f64>, to: Vector<f64>) -> usize {
 }
 
 /// Hinges at four points, along four axes, the first and the last in the world.
-fn four_bar(at: [Vector<f64>; 4], axes: [Vector<f64>; 4]) -> Case {
+pub(crate) fn four_bar(at: [Vector<f64>; 4], axes: [Vector<f64>; 4]) -> Case {
     let mut case = Case::default();
     let bodies = [0, 1, 2].map(|i| link(&mut case, at[i], at[i + 1]));
     for (i, other) in [None, Some(bodies[0]), Some(bodies[1]), None].into_iter().enumerate() {

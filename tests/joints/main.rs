@@ -2,8 +2,10 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod cases;
+mod hard;
 mod laws;
 mod loops;
+mod methods;
 mod mistakes;
 mod pendulums;
 mod rattle;
