@@ -40,6 +40,9 @@ pub struct OrientationLost {
 ///
 /// Every formulation is a file with the same functions: `rhs`, `renormalise`, `advance`.
 pub trait Formulation<T: Real>: Controlled<T> + Clone {
+    /// Whether a state and rates at another may be combined: dense output does. If not, steps end where a state is asked for.
+    const INTERPOLATES: bool = true;
+
     /// These bodies in this formulation.
     fn from_bodies(bodies: &Bodies<T>) -> Self;
 

@@ -146,6 +146,9 @@ pub fn advance<T: Real>(
 }
 
 impl<T: Real> Formulation<T> for State<T> {
+    /// After a step the anchor is another one, and so are the rates there.
+    const INTERPOLATES: bool = false;
+
     fn from_bodies(bodies: &Bodies<T>) -> Self {
         let mut state = Self::default();
         state.read_from(bodies);

@@ -182,6 +182,9 @@ where
         };
         let end_s = from_s + span_s;
         self.last = None;
+        if !F::INTERPOLATES {
+            self.stepper.stop_at(end_s);
+        }
         self.stepper.advance_to(system, end_s, &mut self.out)?;
         self.out.write_to(bodies);
         self.last = Some((end_s, bodies.clone()));

@@ -23,11 +23,6 @@ fn all_find_the_same_motion() {
     let mut tried = 0;
     for form in Form::ALL {
         for method in Method::ALL.into_iter().filter(|method| method.fits(form) && *method != Method::FreeFlight) {
-            // With or without joints, interpolated motors err by far more than their steps: after a step the rates are about
-            // another anchor than before it.
-            if form == Form::Motor && method.is_adaptive() && method != Method::CommutatorFree {
-                continue;
-            }
             let order_2 = matches!(method, Method::Verlet | Method::Splitting2);
             let adaptive = Steps::Adaptive { tolerance: Tolerance { rtol: 1e-8, atol: 1e-8 } };
             let steps = if method.is_adaptive() { adaptive } else { Steps::Fixed { dt_s: 4e-3 } };
