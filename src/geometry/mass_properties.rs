@@ -85,7 +85,7 @@ pub enum MassError {
 
 /// Largest and smallest reach of a mesh (m). Second moments go with the fifth power: 1e250 and 1e-250 leave room
 /// for the sums above, and for the low halves of double-doubles (2^-106 of the high ones) below.
-const REACH_M: core::ops::RangeInclusive<f64> = 1e-50..=1e50;
+pub(crate) const REACH_M: core::ops::RangeInclusive<f64> = 1e-50..=1e50;
 
 /// Rounding of `d` and of its place in the sum, in double-double: some 16 operations of at most 4 units 2^-106 each,
 /// relative to the size of the products that make it up.

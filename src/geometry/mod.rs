@@ -24,6 +24,7 @@ pub mod predicates;
 mod reflections;
 mod rounds;
 mod scaled;
+pub mod solids;
 
 pub use degenerate::Degenerate;
 pub use facet::{Crossing, Facet};
