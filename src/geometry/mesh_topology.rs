@@ -5,7 +5,8 @@
 //! also for 2k balanced ones, as where two boxes touch along an edge. Triangles that repeat a vertex run back along
 //! their own edge, cancel themselves, and are left out here.
 //!
-//! Found by sorting the half-edges: O(n log n), the same order on every machine. It knows indices only, no coordinates.
+//! Found by sorting the half-edges, first into buckets by their smaller end, so that what is left to sort are the few
+//! edges of one vertex: O(n) on meshes, the same order on every machine. It knows indices only, no coordinates.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -79,17 +80,41 @@ pub(crate) fn repeats_vertex([a, b, c]: [u32; 3]) -> bool {
     a == b || b == c || c == a
 }
 
+/// The half-edges by edge, then by triangle.
+fn sorted_half_edges(mesh: &Mesh) -> Vec<HalfEdge> {
+    let proper = || (0..mesh.triangles.len()).filter(|&t| !repeats_vertex(mesh.triangles[t]));
+    let sides = |triangle: usize| {
+        let corners = mesh.triangles[triangle];
+        [0, 1, 2].map(|corner| {
+            let (from, to) = (corners[corner], corners[(corner + 1) % 3]);
+            HalfEdge { ends: [from.min(to), from.max(to)], triangle, corner, forward: from < to }
+        })
+    };
+    // Where the bucket of each vertex starts, and then, while it is filled, where it goes on.
+    let mut next = alloc::vec![0usize; mesh.vertices.len() + 1];
+    for side in proper().flat_map(sides) {
+        next[side.ends[0] as usize + 1] += 1;
+    }
+    for vertex in 1..next.len() {
+        next[vertex] += next[vertex - 1];
+    }
+    let nothing = HalfEdge { ends: [0; 2], triangle: 0, corner: 0, forward: false };
+    let mut half_edges = alloc::vec![nothing; next[mesh.vertices.len()]];
+    for side in proper().flat_map(sides) {
+        let place = &mut next[side.ends[0] as usize];
+        half_edges[*place] = side;
+        *place += 1;
+    }
+    for bucket in half_edges.chunk_by_mut(|a, b| a.ends[0] == b.ends[0]) {
+        bucket.sort_unstable_by_key(|h| (h.ends[1], h.triangle));
+    }
+    half_edges
+}
+
 impl Topology {
     /// Sorts the half-edges of the mesh.
     pub(crate) fn new(mesh: &Mesh) -> Self {
-        let mut half_edges = Vec::with_capacity(3 * mesh.triangles.len());
-        for (triangle, &corners) in mesh.triangles.iter().enumerate().filter(|(_, t)| !repeats_vertex(**t)) {
-            for corner in 0..3 {
-                let (from, to) = (corners[corner], corners[(corner + 1) % 3]);
-                half_edges.push(HalfEdge { ends: [from.min(to), from.max(to)], triangle, corner, forward: from < to });
-            }
-        }
-        half_edges.sort_unstable_by_key(|h| (u64::from(h.ends[0]) << 32 | u64::from(h.ends[1]), h.triangle));
+        let half_edges = sorted_half_edges(mesh);
         let mut edges = Vec::with_capacity(half_edges.len() / 2);
         let mut start = 0;
         for run in half_edges.chunk_by(|a, b| a.ends == b.ends) {
