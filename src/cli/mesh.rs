@@ -10,7 +10,6 @@ use std::path::Path;
 
 use crate::algebra::cga::Point;
 use crate::geometry::enclosing_sphere::enclosing_sphere;
-use crate::geometry::mass_properties::mass_properties;
 use crate::geometry::mesh_checks::{Message, Severity, check};
 use crate::io::mesh_file::{MeshFile, MeshFileError, read_mesh};
 use anyhow::Context;
@@ -83,7 +82,7 @@ pub fn run(path: &Path, json: bool, out: &mut dyn Write) -> anyhow::Result<u8> {
 fn summarise(file: &MeshFile) -> MeshSummary {
     let mesh = &file.mesh;
     let found = check(mesh);
-    let mass = found.usable_as_body.then(|| mass_properties(mesh).ok()).flatten();
+    let mass = found.mass_properties;
     let sphere = enclosing_sphere(&mesh.used_vertices());
     let mut messages: Vec<String> = found.messages.iter().map(Message::to_string).collect();
     if let Err(error) = &sphere {

@@ -15,7 +15,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
-use crate::geometry::mass_properties::{Integrals, MassError};
+use crate::geometry::mass_properties::{Integrals, MassError, MassProperties};
 use crate::geometry::mesh::Mesh;
 use crate::geometry::mesh_convexity::{Convexity, convexity, has_zero_area};
 use crate::geometry::mesh_findings;
@@ -103,6 +103,8 @@ pub struct MeshReport {
     pub usable_as_body: bool,
     /// The signed volume (m³), negative inside out; none where the surface is not closed and oriented.
     pub volume: Option<f64>,
+    /// Volume, centre and inertia of a mesh that is usable as a body.
+    pub mass_properties: Option<MassProperties>,
     /// How often each thing occurs.
     pub counts: MeshCounts,
     /// Findings, errors first.
@@ -122,6 +124,8 @@ pub(crate) struct Examination<'a> {
     pub(crate) counts: MeshCounts,
     /// Why there is no volume, or the signed volume; none where the surface is not closed and oriented.
     pub(crate) volume: Option<Result<f64, MassError>>,
+    /// Where that volume is positive.
+    pub(crate) mass_properties: Option<MassProperties>,
     /// Patches with negative volume, where there are several patches.
     pub(crate) negative_patches: Vec<(usize, f64)>,
     /// None where the surface is not manifold or encloses nothing.
@@ -145,6 +149,7 @@ pub fn check(mesh: &Mesh) -> MeshReport {
         convex: found.convexity == Some(Convexity::Convex),
         usable_as_body: found.is_usable(),
         volume,
+        mass_properties: found.mass_properties.filter(|_| found.is_usable()),
         counts: found.counts,
         messages: mesh_findings::messages(&found),
     }
@@ -168,6 +173,7 @@ impl<'a> Examination<'a> {
             zero_area,
             counts: MeshCounts::default(),
             volume: None,
+            mass_properties: None,
             negative_patches: Vec::new(),
             convexity: None,
         };
@@ -199,8 +205,9 @@ impl<'a> Examination<'a> {
         if !(self.topology.is_closed() && self.topology.is_oriented()) {
             return;
         }
-        let volume = Integrals::new(self.mesh, &self.mesh.triangles).map(|sums| sums.volume());
-        self.volume = Some(volume);
+        let sums = Integrals::new(self.mesh, &self.mesh.triangles);
+        self.mass_properties = sums.as_ref().ok().and_then(|sums| sums.mass_properties().ok());
+        self.volume = Some(sums.map(|sums| sums.volume()));
         if self.patches.count > 1 {
             self.negative_patches =
                 self.volumes_of_patches().into_iter().enumerate().filter(|(_, v)| *v < 0.0).collect();
