@@ -4,7 +4,7 @@
 #[path = "support/shapes.rs"]
 mod shapes;
 
-use ga_physics::geometry::mass_properties::mass_properties;
+use ga_physics::geometry::mass_properties::{MassError, mass_properties};
 use ga_physics::geometry::mesh::{Mesh, MeshError};
 use ga_physics::geometry::mesh_checks::{MeshReport, Severity, check};
 use shapes::*;
@@ -270,4 +270,31 @@ fn welding_joins_equal_numbers_only() {
         Mesh::new(vec![point(0.0, f64::NAN, 0.0)], vec![[0, 0, 0]])
             .is_err_and(|e| matches!(e, MeshError::NotFinite { vertex: 0, .. }))
     );
+}
+
+/// The quick check of mass properties and the thorough one of the report agree on every mesh with one triangle missing,
+/// turned over or there twice.
+#[test]
+fn quick_and_thorough_checks_agree() {
+    let whole = icosphere(1);
+    for i in 0..whole.triangles.len() {
+        let (mut open, mut flipped, mut doubled, mut split) =
+            (whole.clone(), whole.clone(), whole.clone(), whole.clone());
+        open.triangles.remove(i);
+        flipped.triangles[i].swap(1, 2);
+        doubled.triangles.push(whole.triangles[i]);
+        // A corner named twice: the facet is left out, and leaves a hole.
+        split.triangles[i][1] = split.triangles[i][0];
+        for damaged in [open, flipped, doubled, split] {
+            let report = check(&damaged);
+            assert!(!(report.closed && report.oriented));
+            match mass_properties(&damaged) {
+                Err(MassError::NotClosed { .. }) => assert!(!report.closed),
+                Err(MassError::NotOriented { .. }) => assert!(report.closed && !report.oriented),
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+    let touching = joined(&cuboid([0.0; 3], [1.0; 3]), &cuboid([1.0, 1.0, 0.0], [2.0, 2.0, 1.0])).welded();
+    assert_eq!(mass_properties(&touching).unwrap().volume, 2.0);
 }

@@ -34,7 +34,7 @@ pub use principal_axes::{PrincipalAxes, principal_axes};
 use crate::algebra::cga::Point;
 use crate::geometry::double_double::DoubleDouble;
 use crate::geometry::mesh::Mesh;
-use crate::geometry::mesh_topology::Topology;
+use crate::geometry::mesh_topology::{Topology, edges_cancel};
 
 /// What a rigid body needs to know about a solid, at density 1 kg/m³.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,6 +121,9 @@ impl<'a> ClosedMesh<'a> {
     /// # Errors
     /// [`MassError`]: not closed, not oriented.
     pub fn new(mesh: &'a Mesh) -> Result<Self, MassError> {
+        if edges_cancel(mesh) {
+            return Ok(Self(mesh));
+        }
         let topology = Topology::new(mesh);
         if let Some(edge) = topology.edges.iter().find(|e| e.is_open()) {
             return Err(MassError::NotClosed { edge: edge.ends });
