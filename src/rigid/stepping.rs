@@ -24,17 +24,19 @@ pub(super) trait Advance<T: Real>: Send + Sync {
     fn work(&self) -> Work;
 }
 
-/// A span longer than whole steps by no more than this many eps of itself is made of whole steps.
+/// A span longer than whole steps by no more than this many eps of the times that it is a difference of is made of whole
+/// steps: a caller that goes from 59.98 s to 60 s wants one step of 0.02 s, whatever rounding makes of the difference.
 const WHOLE_EPS: f64 = 8.0;
 
-/// How many steps of at most `dt_s` make a span, and how long they are.
-fn divide(span_s: f64, dt_s: f64) -> (u64, f64) {
+/// How many steps of at most `dt_s` make a span from a time, and how long they are.
+fn divide(t_s: f64, span_s: f64, dt_s: f64) -> (u64, f64) {
+    let rounding_s = WHOLE_EPS * f64::EPSILON * (t_s.abs() + span_s);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "a positive number of steps, saturating"
     )]
-    let count = ((span_s / dt_s) * (1.0 - WHOLE_EPS * f64::EPSILON)).ceil().max(1.0) as u64;
+    let count = ((span_s - rounding_s) / dt_s).ceil().max(1.0) as u64;
     (count, span_s / count as f64)
 }
 
@@ -116,7 +118,7 @@ where
         t_s: f64,
         span_s: f64,
     ) -> Result<(), OdeError<MotionError>> {
-        let (count, h_s) = divide(span_s, self.dt_s);
+        let (count, h_s) = divide(t_s, span_s, self.dt_s);
         check_turns(bodies, &system.setup.inertias, t_s, h_s).map_err(OdeError::System)?;
         self.state.read_from(bodies);
         for index in 0..count {
@@ -224,7 +226,7 @@ impl<T: Real> Advance<T> for Composed<T> {
         t_s: f64,
         span_s: f64,
     ) -> Result<(), OdeError<MotionError>> {
-        let (count, h_s) = divide(span_s, self.dt_s);
+        let (count, h_s) = divide(t_s, span_s, self.dt_s);
         system.wrenches(bodies, &mut self.first);
         for index in 0..count {
             let start_s = t_s + h_s * index as f64;
