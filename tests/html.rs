@@ -58,6 +58,8 @@ fn hostile(name: &str) -> Playback<'_> {
         bodies: vec![BodyView { name: name.to_owned(), fixed: false, shape: sample::cube(1.0) }],
         times_s: vec![0.0],
         poses: vec![vec![[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]],
+        stretched: vec![],
+        links: vec![],
         particles: ParticlesView {
             names: vec![name.to_owned()],
             groups: vec![(name.to_owned(), 1)],
@@ -180,6 +182,8 @@ fn the_centre_is_that_of_the_moving_bodies() {
         bodies: vec![body(true), body(false)],
         times_s: vec![0.0, 1.0],
         poses: vec![vec![at(-1e9), at(2.0)], vec![at(-1e9), at(f64::NAN)]],
+        stretched: vec![],
+        links: vec![],
         particles: ParticlesView::default(),
         marks: vec![],
         energy: vec![],

@@ -61,6 +61,8 @@ pub(super) fn playback<'a>(scene: &'a str, cast: &Cast, record: &Record) -> Play
         bodies: bodies(cast, record),
         times_s: record.frames.iter().map(|frame| frame.time_s).collect(),
         poses: record.frames.iter().map(|frame| frame.bodies.iter().map(pose).collect()).collect(),
+        stretched: vec![],
+        links: vec![],
         particles: particles(cast, record),
         marks: record.events.iter().map(|event| mark(event, &cast.bodies)).collect(),
         energy: record.energies.iter().map(energy).collect(),

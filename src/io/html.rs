@@ -10,8 +10,10 @@
 //! It does not simulate, resample or judge: a pose that is missing or not finite is stored as NaN, and the viewer
 //! then shows the nearest finite pose, or hides the body where there is none. So with particles.
 
+mod links;
 mod particles;
 
+pub use links::{Link, LinkEnd, LinkKind, Stretched};
 pub use particles::{Guide, ParticlesView};
 
 use std::collections::BTreeMap;
@@ -33,6 +35,10 @@ pub struct Playback<'a> {
     pub times_s: Vec<f64>,
     /// Per frame and body: `x, y, z` of the centre of mass (world, m), then the rotor `s, e23, e31, e12`.
     pub poses: Vec<Vec<[f64; POSE_COMPONENTS]>>,
+    /// Bodies that are drawn stretched.
+    pub stretched: Vec<Stretched>,
+    /// Joints and springs between bodies.
+    pub links: Vec<Link>,
     /// The particles.
     pub particles: ParticlesView,
     /// Contacts to be marked.
@@ -55,6 +61,11 @@ pub enum Shape {
     Plane {
         /// The outward side; need not be of unit length.
         normal: [f64; 3],
+    },
+    /// A surface of revolution about the z axis.
+    Revolution {
+        /// Distances from the axis and heights, m, from below to above.
+        profile: Vec<[f64; 2]>,
     },
     /// An ellipsoid along the body's axes; a body without a shape is drawn as its inertia ellipsoid.
     Ellipsoid {
@@ -110,7 +121,7 @@ const TEMPLATE: &str = include_str!("viewer/viewer.html");
 const STYLE: &str = include_str!("viewer/viewer.css");
 
 /// The viewer's parts in the order in which they use each other; together they are one function.
-const SCRIPTS: [&str; 13] = [
+const SCRIPTS: [&str; 14] = [
     include_str!("viewer/math.js"),
     include_str!("viewer/recording.js"),
     include_str!("viewer/geometry.js"),
@@ -120,6 +131,7 @@ const SCRIPTS: [&str; 13] = [
     include_str!("viewer/webgl.js"),
     include_str!("viewer/webgl_particles.js"),
     include_str!("viewer/canvas2d.js"),
+    include_str!("viewer/links.js"),
     include_str!("viewer/overlay.js"),
     include_str!("viewer/plot.js"),
     include_str!("viewer/panel.js"),
@@ -201,6 +213,8 @@ fn index(playback: &Playback<'_>, centre: [f64; 3], names: Names) -> Value {
         "centre": centre,
         "bodies": bodies,
         "shapes": shapes,
+        "stretches": links::stretches(playback),
+        "links": links::index(&playback.links, centre),
         "particles": particles::index(&playback.particles, centre),
         "names": names.list,
     })
@@ -214,6 +228,7 @@ fn shape(shape: &Shape) -> Value {
             json!({ "mesh": { "vertices": BASE64.encode(vertices), "triangles": BASE64.encode(triangles) } })
         }
         Shape::Plane { normal } => json!({ "plane": normal }),
+        Shape::Revolution { profile } => json!({ "revolution": profile }),
         Shape::Ellipsoid { semi_axes } => json!({ "ellipsoid": semi_axes }),
     }
 }

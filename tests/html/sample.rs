@@ -117,7 +117,17 @@ pub(crate) fn thrown(scene: &str, throws: Vec<Throw>, duration: f64, offset: [f6
     let floor = BodyView { name: "floor".to_owned(), fixed: true, shape: Shape::Plane { normal: [0.0, 0.0, 1.0] } };
     let thrown = throws.into_iter().map(|t| BodyView { name: t.name, fixed: false, shape: t.shape });
     let bodies = core::iter::once(floor).chain(thrown).collect();
-    Playback { scene, bodies, times_s: times, poses, particles: ParticlesView::default(), marks, energy }
+    Playback {
+        scene,
+        bodies,
+        times_s: times,
+        poses,
+        stretched: vec![],
+        links: vec![],
+        particles: ParticlesView::default(),
+        marks,
+        energy,
+    }
 }
 
 /// A cube, a pyramid and an ellipsoid above a plane.
@@ -190,6 +200,8 @@ fn moving(
     Playback {
         scene,
         bodies: vec![],
+        stretched: vec![],
+        links: vec![],
         energy: energy.collect(),
         poses: vec![vec![]; times.len()],
         times_s: times,

@@ -79,7 +79,7 @@ class Canvas2dRenderer {
   drawShadows(scene, view, patch) {
     const polygons = scene.items.map((item) => {
       const fallen = this.shapes[item.shape].points.map((corner) => {
-        const p = sub(add(item.position, rotate(item.quaternion, corner)), patch.centre);
+        const p = sub(add(item.position, mapped(item.map, corner)), patch.centre);
         const height = dot(p, patch.normal);
         const q = height > 0 ? sub(p, scale(LIGHT, height / dot(patch.normal, LIGHT))) : p;
         return [dot(q, patch.u), dot(q, patch.v)];
@@ -111,8 +111,8 @@ class Canvas2dRenderer {
   /** The great circles of an ellipsoid, where they are on the near side. */
   collectCircles(item, shape, view, edge, facets) {
     for (const ends of shape.lines) {
-      const world = ends.map((p) => add(item.position, rotate(item.quaternion, p)));
-      const outward = rotate(item.quaternion, ends[0].map((x, k) => x / shape.axes[k] ** 2));
+      const world = ends.map((p) => add(item.position, mapped(item.map, p)));
+      const outward = mapped(item.facing, ends[0].map((x, k) => x / shape.axes[k] ** 2));
       const toEye = sub(view.eye, world[0]);
       if (dot(outward, toEye) <= 0) continue;
       const points = world.map((p) => project(view, p));
@@ -128,8 +128,8 @@ class Canvas2dRenderer {
     const tint = item.selected ? 0.12 : 0;
     if (shape.circles) this.collectCircles(item, shape, view, item.selected ? edge : css(scale(item.rgb, 0.72)), facets);
     shape.corners.forEach((t, i) => {
-      const world = t.map((p) => add(item.position, rotate(item.quaternion, p)));
-      let normal = rotate(item.quaternion, shape.normals[i]);
+      const world = t.map((p) => add(item.position, mapped(item.map, p)));
+      let normal = direction(mapped(item.facing, shape.normals[i])) ?? [0, 0, 1];
       const middle = scale(add(add(world[0], world[1]), world[2]), 1 / 3);
       const toEye = sub(view.eye, middle);
       if (dot(normal, toEye) < 0) {

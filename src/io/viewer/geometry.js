@@ -8,6 +8,7 @@ const sphereLevels = (share) => (share > 1280 ? 3 : share > 320 ? 2 : 1);
 /** { corners: [[a, b, c]], normals: [n], sharp: [[ab, bc, ca]], lines: [[a, b]], points: [p], radius, closed } or { plane } or null. */
 function buildShape(shape, facetShare) {
   if (shape.plane) return { plane: direction(shape.plane.map(Number)) ?? [0, 0, 1], radius: 0 };
+  if (shape.revolution) return revolution(shape.revolution);
   if (shape.ellipsoid) return ellipsoid(shape.ellipsoid, sphereLevels(facetShare));
   const vertices = decode(shape.mesh.vertices, "Float32");
   const triangles = decode(shape.mesh.triangles, "Uint32");
@@ -20,8 +21,33 @@ function buildShape(shape, facetShare) {
   return withEdges(corners);
 }
 
-/** Drops triangles without area, and finds the edges that one face has alone or two faces share at a sharp angle. */
-function withEdges(triangles) {
+/** Facets round a surface of revolution, and lines down it that show how it turns: every twelfth. */
+const AROUND = 48;
+const MERIDIAN_EVERY = 12;
+
+/** The surface that a profile [[distance from z, height]] from below to above makes about z. */
+function revolution(profile) {
+  const ring = profile.map(([r, z]) => Array.from({ length: AROUND }, (_, k) => {
+    const angle = (2 * Math.PI * k) / AROUND;
+    return r > 0 ? [r * Math.cos(angle), r * Math.sin(angle), z] : [0, 0, z];
+  }));
+  const triangles = [];
+  const meridians = new Set();
+  for (let i = 0; i + 1 < ring.length; i++) {
+    for (let k = 0; k < AROUND; k++) {
+      const next = (k + 1) % AROUND;
+      triangles.push([ring[i][k], ring[i][next], ring[i + 1][next]], [ring[i][k], ring[i + 1][next], ring[i + 1][k]]);
+      if (k % MERIDIAN_EVERY === 0) meridians.add(`${ring[i][k]} ${ring[i + 1][k]}`);
+    }
+  }
+  return withEdges(triangles, ([a, b]) => meridians.has(`${a} ${b}`) || meridians.has(`${b} ${a}`));
+}
+
+/**
+ * Drops triangles without area, and finds the edges that one face has alone, two faces share at a sharp angle, or that
+ * are asked for.
+ */
+function withEdges(triangles, asked = () => false) {
   const normalOf = ([a, b, c]) => direction(cross(sub(b, a), sub(c, a)));
   const corners = triangles.filter((t) => normalOf(t));
   const normals = corners.map(normalOf);
@@ -49,7 +75,7 @@ function withEdges(triangles) {
     const [f, g] = edge.faces;
     const paired = edge.faces.length === 2 && edge.from[0] !== edge.from[1];
     if (!paired) closed = false;
-    edge.sharp = !paired || dot(normals[f], normals[g]) < Math.cos(SHARP_ANGLE);
+    edge.sharp = !paired || dot(normals[f], normals[g]) < Math.cos(SHARP_ANGLE) || asked(edge.ends);
   }
   const sharp = keys.map((list) => list.map((key) => edges.get(key).sharp));
   const lines = [...edges.values()].filter((edge) => edge.sharp).map((edge) => edge.ends);

@@ -27,7 +27,24 @@ function rotate([w, x, y, z], v) {
   return add(add(v, scale(t, w)), cross(u, t));
 }
 
-const unrotate = ([w, x, y, z], v) => rotate([w, -x, -y, -z], v);
+/** The columns of the linear map of a body: turned by q, after a stretch S (rows one after the other) if there is one. */
+function mapOf(quaternion, stretch) {
+  const before = (k) => [0, 1, 2].map((i) => (stretch ? stretch[3 * i + k] : i === k ? 1 : 0));
+  return [0, 1, 2].map((k) => rotate(quaternion, before(k)));
+}
+
+/** v by a linear map. */
+const mapped = ([a, b, c], [x, y, z]) => [0, 1, 2].map((i) => a[i] * x + b[i] * y + c[i] * z);
+
+/** The map that takes normals along, up to their lengths. */
+const cofactors = ([a, b, c]) => [cross(b, c), cross(c, a), cross(a, b)];
+
+/** What a linear map makes v of (Cramer's rule). */
+function unmapped(map, v) {
+  const rows = cofactors(map);
+  const det = dot(map[0], rows[0]);
+  return rows.map((row) => dot(row, v) / det);
+}
 
 /** The quaternion of the rotor s + e23 + e31 + e12: w + xi + yj + zk is w - x e23 - y e31 - z e12. Null if not finite. */
 function quaternionOfRotor(s, e23, e31, e12) {

@@ -41,6 +41,7 @@ class Overlay {
     c.font = "12px system-ui, sans-serif";
     c.lineCap = "round";
     if (show.paths) this.drawPaths(scene, view, time);
+    if (show.joints) for (const link of scene.links) drawLink(c, view, scene, link);
     if (show.contacts) this.drawMarks(scene, view, { time, hold, lead, chosenMark });
     this.drawNames(scene, view, show.labels);
     this.drawAxes(scene, view);

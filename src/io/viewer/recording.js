@@ -36,6 +36,9 @@ function loadRecording() {
     bodies: index.bodies,
     shapes: index.shapes,
     poses: block("ga-poses", "Float32"),
+    links: index.links,
+    // Of bodies whose orientation is a matrix: what is left of it beside the rotation, frame by frame.
+    stretches: new Map(index.stretches.map(({ body, rows }) => [body, decode(rows, "Float32")])),
     particles: loadParticles(index.particles, block("ga-points", "Float32")),
     frames: timed(block("ga-times", "Float64"), 1, (row, frame) => ({ time: row[0], frame })),
     marks: timed(block("ga-marks", "Float64"), 8, (row, i) => ({
@@ -65,7 +68,9 @@ function recordedPose(recording, frame, body) {
   const p = recording.poses;
   const position = [p[at], p[at + 1], p[at + 2]];
   const quaternion = quaternionOfRotor(p[at + 3], p[at + 4], p[at + 5], p[at + 6]);
-  return allFinite(position) && quaternion ? { position, quaternion } : null;
+  if (!allFinite(position) || !quaternion) return null;
+  const rows = recording.stretches.get(body)?.subarray(9 * frame, 9 * frame + 9);
+  return { position, quaternion, stretch: rows?.length === 9 && rows.every(Number.isFinite) ? rows : null };
 }
 
 /** The two frames about a time and the fraction between them. */
@@ -77,7 +82,7 @@ function bracket(recording, time) {
   return { from: frames[i].frame, to: frames[j].frame, f: gap > 0 ? clamp((time - times[i]) / gap, 0, 1) : 0 };
 }
 
-/** Between frames: positions linearly, attitudes by nlerp. A missing end is replaced by the other one. */
+/** Between frames: positions and stretches linearly, attitudes by nlerp. A missing end is replaced by the other one. */
 function poseAt(recording, body, { from, to, f }) {
   const a = recordedPose(recording, from, body);
   if (a && f === 0) return a;
@@ -86,5 +91,6 @@ function poseAt(recording, body, { from, to, f }) {
   return {
     position: a.position.map((x, i) => mix(x, b.position[i], f)),
     quaternion: nlerp(a.quaternion, b.quaternion, f),
+    stretch: a.stretch && b.stretch ? a.stretch.map((x, i) => mix(x, b.stretch[i], f)) : a.stretch ?? b.stretch,
   };
 }

@@ -68,7 +68,8 @@ function extent(recording, shapes, chosen) {
       take(particles.positions[i], particles.positions[i + 1], particles.positions[i + 2], false);
     }
   }
-  for (const point of stillPoints(particles)) take(...point, true);
+  const anchors = recording.links.flatMap(({ ends }) => ends).filter((end) => end.body == null).map((end) => end.point);
+  for (const point of [...stillPoints(particles), ...anchors]) take(...point, true);
   recording.bodies.forEach((body, i) => {
     if (!chosen(body, shapes[body.shape])) return;
     const radius = shapes[body.shape]?.radius ?? 0;
@@ -126,14 +127,32 @@ class Stage {
       const shape = this.shapes[body.shape];
       const pose = poseAt(this.recording, i, between);
       if (!pose || !shape || this.look[i].hidden) return;
-      const item = { ...pose, body: i, shape: body.shape, rgb: this.rgb(i, theme), selected: i === this.selected };
+      const map = mapOf(pose.quaternion, pose.stretch);
+      const item = { position: pose.position, map, facing: cofactors(map), body: i, shape: body.shape, rgb: this.rgb(i, theme), selected: i === this.selected };
       if (shape.plane) planes.push(this.patch(pose.position, rotate(pose.quaternion, shape.plane), body.fixed ? null : item.rgb));
       else items.push(item);
     });
     for (const { plane } of this.guidePlanes) planes.push({ ...this.patch(plane.point, direction(plane.normal), rgbaOfCss(theme.accent).slice(0, 3)), light: true });
     if (!this.hasPlane) planes.push(this.referenceGrid());
     this.cloud?.moveTo(between);
-    return { items, planes, shapes: this.shapes, theme, stage: this };
+    return { items, planes, links: this.links(between), shapes: this.shapes, theme, stage: this };
+  }
+
+  /** Joints and springs where they are: their ends, and of a hinge the direction of its axis. */
+  links(between) {
+    const placed = ({ body, point }) => {
+      if (body == null) return { point, map: null };
+      const pose = this.look[body]?.hidden ? null : poseAt(this.recording, body, between);
+      if (!pose) return null;
+      const map = mapOf(pose.quaternion, pose.stretch);
+      return { point: add(pose.position, mapped(map, point)), map };
+    };
+    return this.recording.links.flatMap(({ kind, ends, axis }) => {
+      const [a, b] = ends.map(placed);
+      if (!a || !b) return [];
+      const along = axis && direction(a.map ? mapped(a.map, axis) : axis);
+      return [{ kind, ends: [a.point, b.point], fixed: [!a.map, !b.map], axis: along }];
+    });
   }
 
   /** The part of a plane that is near the motion; its lines stay at whole steps from the plane's own point. */
@@ -162,9 +181,9 @@ class Stage {
     let best = { distance: Infinity, body: -1 };
     for (const item of scene.items) {
       const shape = this.shapes[item.shape];
-      const o = unrotate(item.quaternion, sub(origin, item.position));
-      const d = unrotate(item.quaternion, ray);
-      const along = -dot(o, d);
+      const o = unmapped(item.map, sub(origin, item.position));
+      const d = unmapped(item.map, ray);
+      const along = -dot(o, d) / dot(d, d);
       if (length(add(o, scale(d, along))) > shape.radius) continue;
       for (const triangle of shape.corners) {
         const distance = hit(triangle, o, d);

@@ -5,6 +5,8 @@ const REAL_TIME_S = [1, 60];
 const FITTED_S = 10;
 /** Up to so many particles in motion, their ways are drawn without being asked for: an orbit is its way. */
 const FOLLOWED = 12;
+/** Up to so many linked bodies in motion, likewise: what holds them shapes their ways. */
+const FOLLOWED_LINKED = 3;
 /** For how long a contact mark stays, in seconds of the viewer's time. */
 const MARK_HOLD_S = 0.35;
 
@@ -20,7 +22,7 @@ class Viewer {
     this.time = this.recording.start;
     this.playing = false;
     this.ready = false;
-    this.show = { contacts: true, paths: false, labels: false };
+    this.show = { contacts: true, joints: true, paths: false, labels: false };
     this.chosenMark = null;
     this.renderer = this.makeRenderer(location.hash !== "#canvas2d");
     this.overlay = new Overlay(byId("overlay"), this.stage, this.recording);
@@ -33,7 +35,8 @@ class Viewer {
       theme: () => this.theme, select: (g) => this.selectParticle(g, -1), changed: () => this.changed(),
     });
     const moving = this.recording.particles.fixed.filter((fixed) => !fixed).length;
-    byId("show-paths").checked = moving > 0 && moving <= FOLLOWED;
+    const linked = this.recording.links.length > 0 ? this.recording.bodies.filter((body) => !body.fixed).length : 0;
+    byId("show-paths").checked = (moving > 0 && moving <= FOLLOWED) || (linked > 0 && linked <= FOLLOWED_LINKED);
     this.events = new EventList(byId("events"), byId("kinds"), byId("n-events"), this.recording, (mark) => this.jumpTo(mark));
     this.writeHeader();
     this.connectTransport();
@@ -74,6 +77,7 @@ class Viewer {
     if (recording.duration > 0) facts.push(`${show(recording.duration)} s`);
     if (this.renderer.name === "canvas2d") facts.push("2D fallback");
     byId("facts").textContent = facts.join(" · ");
+    byId("joints-switch").hidden = recording.links.length === 0;
     byId("energy-panel").hidden = recording.energy.length === 0;
     byId("n-bodies").textContent = String(bodies.length + particles.n);
     byId("things").textContent = particles.n === 0 ? "Bodies" : bodies.length === 0 ? "Particles" : "Bodies and particles";
@@ -94,7 +98,7 @@ class Viewer {
     const realTime = recording.duration >= REAL_TIME_S[0] && recording.duration <= REAL_TIME_S[1];
     byId("speed").selectedIndex = realTime || still ? 3 : speeds.length - 1;
     byId("speed").addEventListener("change", () => this.changed());
-    for (const [id, key] of [["show-contacts", "contacts"], ["show-paths", "paths"], ["show-labels", "labels"]]) {
+    for (const [id, key] of [["show-contacts", "contacts"], ["show-joints", "joints"], ["show-paths", "paths"], ["show-labels", "labels"]]) {
       this.show[key] = byId(id).checked;
       byId(id).addEventListener("change", () => {
         this.show[key] = byId(id).checked;
@@ -347,7 +351,7 @@ try {
     /** Where a point of a body is at the present time, relative to the scene's centre: a test compares it with the rotor's. */
     worldPoint(body, point) {
       const pose = poseAt(viewer.recording, body, bracket(viewer.recording, viewer.time));
-      return pose && add(pose.position, rotate(pose.quaternion, point));
+      return pose && add(pose.position, mapped(mapOf(pose.quaternion, pose.stretch), point));
     },
     /** Where a particle is in the picture, in pixels from its top left. */
     particlePixel(particle) {

@@ -5,8 +5,10 @@ const BODY_VERTEX = `#version 300 es
 layout(location = 0) in vec3 corner;
 layout(location = 1) in vec3 facet;
 layout(location = 2) in vec3 position;
-layout(location = 3) in vec4 turn;
-layout(location = 4) in vec4 paint;
+layout(location = 3) in vec3 first;   // the columns of the body's map
+layout(location = 4) in vec3 second;
+layout(location = 5) in vec3 third;
+layout(location = 6) in vec4 paint;
 uniform mat4 clip;
 uniform vec4 plane;      // unit normal and offset, relative to the eye
 uniform vec3 light;
@@ -14,10 +16,9 @@ uniform bool shadow;
 out vec3 place;
 out vec3 normal;
 out vec4 colour;
-vec3 rotate(vec3 v) { return v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v); }
 void main() {
-  place = position + rotate(corner);
-  normal = rotate(facet);
+  place = position + mat3(first, second, third) * corner;
+  normal = mat3(cross(second, third), cross(third, first), cross(first, second)) * facet;
   colour = paint;
   if (shadow) {
     float height = dot(plane.xyz, place) - plane.w;
@@ -39,7 +40,8 @@ void main() {
   if (flatColour.a > 0.0) { pixel = vec4(flatColour.rgb * flatColour.a, flatColour.a); return; }
   if (edge > 0.0) { pixel = vec4(mix(colour.rgb * edge, vec3(1.0), colour.a * 0.9), 1.0); return; }
   vec3 toEye = normalize(-place);
-  vec3 n = dot(normal, toEye) < 0.0 ? -normal : normal;
+  vec3 n = normalize(normal);
+  if (dot(n, toEye) < 0.0) n = -n;
   float b = 0.56 + 0.14 * n.z + 0.36 * max(0.0, dot(n, light)) + 0.1 * max(0.0, dot(n, toEye));
   pixel = vec4(min(colour.rgb * b + colour.a * 0.12, 1.0), 1.0);
 }`;
@@ -104,7 +106,7 @@ function clipMatrix(view) {
   return [...m, 0, 0, b, 0];
 }
 
-const FLOATS_PER_INSTANCE = 11;
+const FLOATS_PER_INSTANCE = 16;
 
 class WebGlRenderer {
   constructor(canvas, stage) {
@@ -150,8 +152,8 @@ class WebGlRenderer {
       attribute(1, 3, 6, 3, 0);
       gl.bindBuffer(gl.ARRAY_BUFFER, instances);
       attribute(2, 3, FLOATS_PER_INSTANCE, 0, 1);
-      attribute(3, 4, FLOATS_PER_INSTANCE, 3, 1);
-      attribute(4, 4, FLOATS_PER_INSTANCE, 7, 1);
+      for (const column of [0, 1, 2]) attribute(3 + column, 3, FLOATS_PER_INSTANCE, 3 + 3 * column, 1);
+      attribute(6, 4, FLOATS_PER_INSTANCE, 12, 1);
       return { array, count: data.length / 6 };
     };
     return { instances, facets: part(facets), lines: part(lines), edge: shape.circles ? 0.72 : 0.42 };
@@ -180,8 +182,8 @@ class WebGlRenderer {
   fillInstances(scene, view) {
     const { gl } = this;
     const groups = this.meshes.map(() => []);
-    for (const { shape, position, quaternion: [w, x, y, z], rgb, selected } of scene.items) {
-      groups[shape].push(...sub(position, view.eye), x, y, z, w, ...rgb, selected ? 1 : 0);
+    for (const { shape, position, map, rgb, selected } of scene.items) {
+      groups[shape].push(...sub(position, view.eye), ...map.flat(), ...rgb, selected ? 1 : 0);
     }
     this.groups = [];
     groups.forEach((list, i) => {

@@ -32,7 +32,17 @@ pub(super) fn page() -> Result<String, StudyError> {
         }
     }
     let (bodies, poses, marks, energy) = (vec![], vec![vec![]; times_s.len()], vec![], vec![]);
-    Ok(html::render(&Playback { scene: &title, bodies, times_s, poses, particles: view, marks, energy }))
+    Ok(html::render(&Playback {
+        scene: &title,
+        bodies,
+        times_s,
+        poses,
+        stretched: vec![],
+        links: vec![],
+        particles: view,
+        marks,
+        energy,
+    }))
 }
 
 /// One more net, to the right of the others; when it ran away, s, if it did.
