@@ -23,6 +23,7 @@ struct Part<T: Real> {
     /// Of these bodies; the others stand still in it.
     system: System<T>,
     method: Box<dyn Advance<T>>,
+    form: Form,
     /// Which bodies; all of them where there is one part.
     bodies: Vec<usize>,
 }
@@ -72,7 +73,7 @@ impl<T: Real> Motion<T> {
                 Form::Rotor => on_group::<Bodies<T>, T>(bodies, solver)?,
                 Form::Motor => on_group::<motor::State<T>, T>(bodies, solver)?,
             };
-            parts.push(Part { system, method, bodies: own.clone() });
+            parts.push(Part { system, method, form: solver.form, bodies: own.clone() });
         }
         Ok(Self { setup, parts, start: bodies.clone(), moved: bodies.clone() })
     }
@@ -94,6 +95,13 @@ impl<T: Real> Motion<T> {
             }
         }
         Ok(())
+    }
+
+    /// How the motion of a body is written.
+    #[must_use]
+    pub fn form_of(&self, body_idx: usize) -> Form {
+        let part = self.parts.iter().find(|part| part.bodies.contains(&body_idx));
+        part.map_or_else(Form::default, |part| part.form)
     }
 
     /// Masses, forces, joints.

@@ -5,7 +5,7 @@ use crate::algebra::Real;
 use crate::algebra::cga::Point;
 use crate::algebra::g3::{Bivector, Rotor, Vector};
 use crate::particle::{Particles, Totals};
-use crate::rigid::Bodies;
+use crate::rigid::{Bodies, Form};
 use alloc::vec::Vec;
 
 /// The state of one body, in f64.
@@ -15,6 +15,9 @@ pub struct BodySample {
     pub position: Point<f64>,
     /// Orientation.
     pub rotor: Rotor<f64>,
+    /// Where it is stored as a matrix: that, column by column, though it may be no rotation any more; `rotor` is the
+    /// nearest one.
+    pub matrix: Option<[[f64; 3]; 3]>,
     /// Velocity, m/s.
     pub velocity: Vector<f64>,
     /// Angular velocity, world, rad/s.
@@ -87,6 +90,7 @@ pub struct Record {
     momentum_scale: f64,
     angular_momentum_scale: f64,
     max_violation: Option<f64>,
+    max_distortion: Option<f64>,
 }
 
 impl Record {
@@ -95,6 +99,7 @@ impl Record {
         if let Some(violation_m) = world.worst_violation() {
             self.note_violation(violation_m);
         }
+        self.max_distortion = distortion(world).map(|now| larger(self.max_distortion.unwrap_or_default(), now));
         self.note(world.time_s(), world.totals(), keep_frame, || frame(world));
     }
 
@@ -126,6 +131,12 @@ impl Record {
         self.max_violation
     }
 
+    /// How far an orientation was from a rotation at most; none without bodies.
+    #[must_use]
+    pub fn max_distortion(&self) -> Option<f64> {
+        self.max_distortion
+    }
+
     /// The drifts so far.
     #[must_use]
     pub fn drifts(&self) -> Drifts {
@@ -149,11 +160,37 @@ fn larger(known: f64, error: f64) -> f64 {
     if error.is_nan() { f64::INFINITY } else { known.max(error) }
 }
 
+/// The orientation of a body as it is stored, if it is stored as a matrix, column by column.
+fn matrix<T: Real>(world: &World<T>, body_idx: usize) -> Option<[[f64; 3]; 3]> {
+    let bodies = world.bodies();
+    let matrix = bodies.matrix.get(body_idx).filter(|_| world.motion().form_of(body_idx) == Form::Matrix)?;
+    Some(core::array::from_fn(|column| core::array::from_fn(|row| matrix[(row, column)].to_f64())))
+}
+
+/// How far orientations are from rotations: the largest entry of |R^T R - 1| of a matrix, ||R|² - 1| of a rotor.
+fn distortion<T: Real>(world: &World<T>) -> Option<f64> {
+    let of_rotor = |rotor: Rotor<f64>| {
+        let Rotor { s, e23, e31, e12 } = rotor;
+        (s * s + e23 * e23 + e31 * e31 + e12 * e12 - 1.0).abs()
+    };
+    let of_matrix = |columns: [[f64; 3]; 3]| {
+        let dot = |a: usize, b: usize| (0..3).map(|row| columns[a][row] * columns[b][row]).sum::<f64>();
+        let entry = |a: usize, b: usize| (dot(a, b) - if a == b { 1.0 } else { 0.0 }).abs();
+        (0..3).flat_map(|a| (0..3).map(move |b| (a, b))).fold(0.0, |worst, (a, b)| larger(worst, entry(a, b)))
+    };
+    let of_body = |body_idx: usize| match matrix(world, body_idx) {
+        Some(columns) => of_matrix(columns),
+        None => of_rotor(world.bodies().rotor[body_idx].map(Real::to_f64)),
+    };
+    (0..world.bodies().len()).map(of_body).reduce(larger)
+}
+
 fn frame<T: Real>(world: &World<T>) -> Frame {
     let (bodies, inertias) = (world.bodies(), world.motion().inertias());
     let sample = |index: usize| BodySample {
         position: bodies.position[index],
         rotor: bodies.rotor[index].map(Real::to_f64),
+        matrix: matrix(world, index),
         velocity: bodies.velocity(index, &inertias[index]).map(Real::to_f64),
         omega_world: bodies.omega_world(index, &inertias[index]).map(Real::to_f64),
     };
