@@ -102,6 +102,7 @@ fn the_schema_beside_the_scenes_is_current() {
 fn what_is_read_is_valid_and_what_is_not_is_not() {
     let body = |rest: &str| format!("[[body]]\nname = \"a\"\nmass_kg = 1\n{rest}");
     let force = |rest: &str| format!("{}[[force]]\n{rest}", body("shape.box.size_m = [1, 1, 1]\n"));
+    let joint = |rest: &str| format!("{}[[joint]]\n{rest}", body("shape.box.size_m = [1, 1, 1]\n"));
     let good = [
         String::new(),
         "record_hz = 60\nformulation = \"rotor\"\n[solver]\nscalar = \"f32\"\n".into(),
@@ -110,10 +111,16 @@ fn what_is_read_is_valid_and_what_is_not_is_not() {
         body("shape.pyramid = { base_m = 1, height_m = 1 }\norientation.rotor = [1, 0, 0, 0]\n"),
         force("at_point = { body = \"a\", force_world_n = [1, 0, 0] }\n"),
         force("linear_drag = { body = \"a\", k_kg_s = 1 }\n"),
+        force("torque = { body = \"a\", torque_world_n_m = [0, 0, 1] }\n"),
+        force("spring = { a = \"a\", to_m = [0, 0, 3], stiffness_n_m = 1 }\n"),
+        joint("ball = { a = \"a\", point_m = [0, 0, 1] }\n"),
+        joint("hinge = { a = \"a\", point_m = [0, 0, 1], axis = [0, 1, 0] }\n"),
+        joint("distance = { a = \"a\", at_a_body_m = [0, 0, 1], to_m = [0, 0, 2], length_m = 1 }\n"),
+        body("formulation = \"matrix\"\nshape.cone = { radius_m = 1, height_m = 1 }\n"),
     ];
     let bad = [
         "dt_s = -1".into(),
-        "formulation = \"motor\"\n".into(),
+        "formulation = \"dual\"\n".into(),
         "gravity_m_s2 = [0, -9.81]\n".into(),
         "colour = 1\n".into(),
         "[contact]\nrestitution = 1.5\n".into(),
@@ -128,6 +135,12 @@ fn what_is_read_is_valid_and_what_is_not_is_not() {
         force(""),
         force("at_point = { body = \"a\" }\n"),
         force("linear_drag = { body = \"a\", k_kg_s = -1 }\n"),
+        force("torque = { body = \"a\" }\n"),
+        joint(""),
+        joint("ball = { a = \"a\" }\n"),
+        joint("hinge = { a = \"a\", point_m = [0, 0, 1] }\n"),
+        joint("distance = { a = \"a\", to_m = [0, 0, 2], length_m = 0 }\n"),
+        body("shape.ball.radius_m = -1\n"),
     ];
     let complete = |text: &str| match text.strip_prefix("dt_s") {
         Some(_) => format!("duration_s = 1\n{text}"),

@@ -26,12 +26,33 @@ pub(super) fn explain<T: Real>(error: &SimulationError, world: &World<T>, cast: 
              step, or a velocity too large; take a smaller `dt_s`",
             names[*body_idx]
         ),
-        SimulationError::Bodies(error) => bodies(error, names),
+        SimulationError::Bodies(error) => bodies(error, &world.motion().setup().joints, names),
     }
 }
 
-fn bodies(error: &OdeError<rigid::MotionError>, names: &[String]) -> String {
+fn bodies<T: Real>(error: &OdeError<rigid::MotionError>, joints: &[rigid::Joint<T>], names: &[String]) -> String {
+    let row = |row: &usize| joints.get(*row).map_or_else(|| "a joint".into(), |joint| joined(joint, names));
     match error {
+        OdeError::System(rigid::MotionError::Projection { time_s, source }) => match source {
+            ProjectionError::NotConverged { row: worst, violation_m, .. } => format!(
+                "at {time_s:.6} s {} cannot be held, {violation_m:.1e} m are left: it contradicts other joints, or the step \
+                 is too long; take a smaller `dt_s`, or allow a larger `solver.violation`",
+                row(worst)
+            ),
+            ProjectionError::NoGradient { row: which } => {
+                format!("at {time_s:.6} s {} has no direction to act in: its ends are at one place", row(which))
+            }
+            ProjectionError::Solve(source) => solving(*time_s, source, row),
+        },
+        OdeError::System(rigid::MotionError::Multipliers { time_s, source }) => solving(*time_s, source, row),
+        OdeError::StepTooSmall { time_s, step_s } => format!(
+            "at {time_s:.6} s the tolerance asks for a step of {step_s:.1e} s: a spring or drag is very stiff, or a body very \
+             slender; allow a larger `solver.rtol`, or give a `dt_s` and a method of fixed steps"
+        ),
+        OdeError::NotFinite { time_s, .. } => format!(
+            "the bodies left the range of the numbers at {time_s:.6} s: a spring or drag is too stiff for the step; take a \
+             smaller `dt_s`, or let the steps be chosen (`solver.rtol`)"
+        ),
         OdeError::System(rigid::MotionError::Spin { body_idx, time_s, turn_rad, dt_s }) => format!(
             "body `{}` turns by {turn_rad:.1e} rad in a step of {dt_s} s at {time_s:.6} s, too far for a Runge-Kutta method; \
              take a smaller `dt_s`, or `solver.method = \"yoshida4\"`, which moves free bodies exactly",
@@ -45,6 +66,18 @@ fn bodies(error: &OdeError<rigid::MotionError>, names: &[String]) -> String {
         }
         _ => error.to_string(),
     }
+}
+
+/// A joint, by the bodies that it joins.
+fn joined<T: Real>(joint: &rigid::Joint<T>, names: &[String]) -> String {
+    let name = |body_idx: usize| names.get(body_idx).map_or_else(|| body_idx.to_string(), |name| format!("`{name}`"));
+    let bodies: Vec<String> = joint.bodies().into_iter().flatten().map(name).collect();
+    let what = match joint {
+        rigid::Joint::Ball { .. } => "the ball joint of",
+        rigid::Joint::Hinge { .. } => "the hinge of",
+        rigid::Joint::Distance { .. } => "the distance of",
+    };
+    format!("{what} {}", bodies.join(" and "))
 }
 
 fn particles(error: &OdeError<MotionError>, constraints: &[Constraint], names: &[String]) -> String {
@@ -81,7 +114,7 @@ fn solving(time_s: f64, error: &SolveError, row: impl Fn(&usize) -> String) -> S
             format!("at {time_s:.6} s {} left the range of the numbers; take a smaller `dt_s`", row(which))
         }
         SolveError::Contradiction { row: which, .. } => {
-            format!("at {time_s:.6} s {} contradicts other constraints; remove one of them", row(which))
+            format!("at {time_s:.6} s {} contradicts others; remove one of them", row(which))
         }
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! 0: done. 1: the run failed (what, when, what is kept). 2: the user's input is wrong.
 
+mod conserved;
 mod explain;
 pub mod mesh;
 mod playback;

@@ -3,9 +3,10 @@
 use crate::algebra::Real;
 use crate::algebra::g3::Vector;
 use crate::io::html::{self, ParticlesView, Playback};
+use crate::rigid::Attachment;
 use crate::scene::Scene;
-use crate::scene::build::{Guide, Look, ParticleLook, ParticleSetup};
-use crate::simulation::{BodySample, Event, Record};
+use crate::scene::build::{Guide, LinkKind, LinkLook, Look, ParticleLook, ParticleSetup};
+use crate::simulation::{BodySample, Event, Frame, Record};
 
 /// Who is in a run, and how they look.
 #[derive(Clone, Debug, Default)]
@@ -15,16 +16,23 @@ pub(super) struct Cast {
     /// Names of the particles.
     pub(super) particles: Vec<String>,
     looks: Vec<Look>,
+    links: Vec<LinkLook>,
     particle_look: ParticleLook,
     fixed: Vec<bool>,
     mass: Vec<f64>,
 }
 
 impl Cast {
-    pub(super) fn of<T: Real>(scene: &Scene, looks: Vec<Look>, particles: Option<&ParticleSetup<T>>) -> Self {
+    pub(super) fn of<T: Real>(
+        scene: &Scene,
+        looks: Vec<Look>,
+        links: Vec<LinkLook>,
+        particles: Option<&ParticleSetup<T>>,
+    ) -> Self {
         let cast = Self {
             bodies: scene.body.iter().map(|body| body.name.get_ref().clone()).collect(),
             looks,
+            links,
             ..Self::default()
         };
         let Some(setup) = particles else {
@@ -37,6 +45,11 @@ impl Cast {
             mass: setup.mass.iter().map(|mass| mass.to_f64()).collect(),
             ..cast
         }
+    }
+
+    /// Joints and springs between bodies.
+    pub(super) fn links(&self) -> &[LinkLook] {
+        &self.links
     }
 
     /// All names: bodies, then particles.
@@ -61,8 +74,8 @@ pub(super) fn playback<'a>(scene: &'a str, cast: &Cast, record: &Record) -> Play
         bodies: bodies(cast, record),
         times_s: record.frames.iter().map(|frame| frame.time_s).collect(),
         poses: record.frames.iter().map(|frame| frame.bodies.iter().map(pose).collect()).collect(),
-        stretched: vec![],
-        links: vec![],
+        stretched: stretched(record),
+        links: cast.links.iter().map(link).collect(),
         particles: particles(cast, record),
         marks: record.events.iter().map(|event| mark(event, &cast.bodies)).collect(),
         energy: record.energies.iter().map(energy).collect(),
@@ -80,6 +93,7 @@ fn bodies(cast: &Cast, record: &Record) -> Vec<html::BodyView> {
             triangles: mesh.triangles.clone(),
         },
         Look::Plane(normal) => html::Shape::Plane { normal: <[f64; 3]>::from(*normal) },
+        Look::Revolution(profile) => html::Shape::Revolution { profile: profile.clone() },
         Look::Ellipsoid(semi_axes) => html::Shape::Ellipsoid { semi_axes: *semi_axes },
     };
     let view = |(index, (name, look)): (usize, (&String, &Look))| html::BodyView {
@@ -88,6 +102,38 @@ fn bodies(cast: &Cast, record: &Record) -> Vec<html::BodyView> {
         shape: shape(look),
     };
     cast.bodies.iter().zip(&cast.looks).enumerate().map(view).collect()
+}
+
+fn link(look: &LinkLook) -> html::Link {
+    let kind = match look.kind {
+        LinkKind::Ball => html::LinkKind::Ball,
+        LinkKind::Hinge(axis) => html::LinkKind::Hinge { axis: axis.into() },
+        LinkKind::Distance => html::LinkKind::Distance,
+        LinkKind::Spring => html::LinkKind::Spring,
+    };
+    let end = |end: Attachment<f64>| match end {
+        Attachment::Body { body_idx, at_body } => html::LinkEnd::Body { body: body_idx, point: at_body.into() },
+        Attachment::World(point) => html::LinkEnd::World(point.into()),
+    };
+    html::Link { kind, ends: look.ends.map(end) }
+}
+
+/// Bodies whose orientation is recorded as a matrix M too, as S = ~R M.
+fn stretched(record: &Record) -> Vec<html::Stretched> {
+    let bodies = record.frames.first().map_or(0, |frame| frame.bodies.len());
+    let of_body = |body: usize| {
+        let of_frame = |frame: &Frame| {
+            let sample = &frame.bodies[body];
+            let columns = sample.matrix?.map(|column| <[f64; 3]>::from(sample.rotor.rev().apply(Vector::from(column))));
+            Some(std::array::from_fn(|row| std::array::from_fn(|column| columns[column][row])))
+        };
+        let stretch: Vec<Option<[[f64; 3]; 3]>> = record.frames.iter().map(of_frame).collect();
+        let whole = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let any = stretch.iter().any(Option::is_some);
+        // At the start the matrix is that of the rotor.
+        any.then(|| html::Stretched { body, stretch: stretch.iter().map(|rows| rows.unwrap_or(whole)).collect() })
+    };
+    (0..bodies).filter_map(of_body).collect()
 }
 
 fn mark(event: &Event, names: &[String]) -> html::Mark {

@@ -1,20 +1,21 @@
 //! `ga-physics run`: load, build, simulate with a progress bar, write the files, print the table.
 
 use super::Failure;
+use super::conserved::Conserved;
 use super::explain::explain;
 use super::playback::{Cast, playback};
 use crate::algebra::Real;
 use crate::io::files::{WriteError, write_whole};
 use crate::io::html;
-use crate::io::summary::{self, ParticleSettings, ParticleWork, Settings, Summary};
+use crate::io::summary::{self, BodySettings, BodyWork, ParticleSettings, ParticleWork, Settings, Summary};
 use crate::io::tables;
 use crate::particle::{Motion, Particles};
-use crate::rigid::{self, Bodies};
+use crate::rigid;
 use crate::scene::build::{Built, build};
-use crate::scene::description::{Constraint, Force, Method, Scalar};
-use crate::scene::plan::{self, SolverPlan};
+use crate::scene::description::{Method, Scalar};
+use crate::scene::plan::{self, BodySolverPlan, SolverPlan};
 use crate::scene::{MAX_STEPS, Rejected, Scene, SceneSource, load};
-use crate::simulation::{Event, EventKind, Record, SimulationError, World, state_hash};
+use crate::simulation::{Event, Record, SimulationError, World, state_hash};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -49,12 +50,12 @@ fn run_in<T: Real>(options: &Options, scene: &Scene, source: SceneSource) -> Res
         Ok(built) => built,
         Err(diagnostics) => return Err(Failure::rejected(Rejected { source, diagnostics })),
     };
-    let Built { setup, subject, body_solver, looks, particles } = built;
-    let cast = Cast::of(scene, looks, particles.as_ref());
+    let Built { setup, subject, body_solvers, looks, links, particles } = built;
+    let cast = Cast::of(scene, looks, links, particles.as_ref());
     let out = options.out.clone().unwrap_or_else(|| Path::new("out").join(scene_name(&options.scene)));
     // Before the run: a directory that cannot be made should not cost a simulation.
     std::fs::create_dir_all(&out).map_err(|source| WriteError { path: out.clone(), source })?;
-    let bodies = rigid::Motion::new(subject, &setup.bodies, &body_solver);
+    let bodies = rigid::Motion::mixed(subject, &setup.bodies, &body_solvers);
     let mut world = World::new(setup, bodies.map_err(|reason| Failure::input(reason.to_string()))?);
     if let Some(particles) = particles {
         let solver = SolverPlan::of(scene).of_particles(plan::interval_s(scene));
@@ -155,7 +156,7 @@ fn summarise<T: Real>(
     wall_s: f64,
     failure: Option<String>,
 ) -> Summary {
-    let conserved = Conserved::of(scene, record);
+    let conserved = Conserved::of(scene, cast.links(), record);
     let drifts = record.drifts();
     Summary {
         scene: scene_name(&options.scene),
@@ -171,8 +172,10 @@ fn summarise<T: Real>(
         angular_momentum_drift_rel: drifts.angular_momentum.filter(|_| conserved.angular_momentum),
         max_penetration_m: record.max_penetration(),
         max_violation_m: record.max_violation(),
+        max_distortion: record.max_distortion(),
+        body_work: (!scene.body.is_empty()).then(|| body_work(scene, world)),
         particle_work: world.particles().map(particle_work),
-        state_bytes_per_body: Bodies::<T>::bytes_per_body(),
+        state_bytes_per_body: plan::state_bytes_per_body(&BodySolverPlan::of(scene), scene.solver.scalar),
         state_bytes_per_particle: Particles::<T>::bytes_per_particle(),
         state_hash: format!(
             "{:016x}",
@@ -183,15 +186,42 @@ fn summarise<T: Real>(
             duration_s: *scene.duration_s.get_ref(),
             dt_s: scene.dt_s.as_ref().map(|dt| *dt.get_ref()),
             record_hz: plan::record_hz(scene),
-            formulation: "rotor".into(),
+            formulation: scene.formulation.get_ref().name().into(),
             scalar: if size_of::<T>() == size_of::<f64>() { "f64".into() } else { "f32".into() },
-            method: rigid::Method::Yoshida6.name().into(),
+            body_solvers: body_settings(scene),
             particle_solver: (!cast.particles.is_empty()).then(|| particle_settings(&SolverPlan::of(scene))),
             gravity_m_s2: scene.gravity_m_s2.get_ref().0,
             restitution: *scene.contact.restitution.get_ref(),
             overrides: source.overrides().to_vec(),
         },
     }
+}
+
+fn body_work<T: Real>(scene: &Scene, world: &World<T>) -> BodyWork {
+    let (work, solvers) = (world.motion().work(), BodySolverPlan::of(scene));
+    BodyWork {
+        joints: solvers.iter().map(|solver| solver.joints).sum(),
+        joint_rows: solvers.iter().map(|solver| solver.joint_rows).sum(),
+        redundant_rows: world.motion().redundant(),
+        asked_violation_m: world.motion().asked_violation_m(),
+        redirected_drifts: world.motion().redirected(),
+        rhs_evals: work.rhs_evals,
+        accepted_steps: work.accepted,
+        rejected_steps: work.rejected,
+    }
+}
+
+fn body_settings(scene: &Scene) -> Vec<BodySettings> {
+    let settings = |solver: BodySolverPlan| BodySettings {
+        formulation: solver.formulation.name().into(),
+        bodies: solver.bodies,
+        method: solver.method.name().into(),
+        step_s: (!solver.is_exact() && !solver.adaptive).then(|| plan::interval_s(scene)),
+        rtol: solver.adaptive.then_some(solver.rtol),
+        atol: solver.adaptive.then_some(solver.atol),
+        state_bytes_per_body: solver.state_bytes_per_body,
+    };
+    BodySolverPlan::of(scene).into_iter().map(settings).collect()
 }
 
 fn particle_work<T: Real>(motion: &Motion<T>) -> ParticleWork {
@@ -218,50 +248,6 @@ fn particle_settings(solver: &SolverPlan) -> ParticleSettings {
         violation: solver.violation,
         substeps: solver.substeps.filter(|_| solver.method == Method::Xpbd),
     }
-}
-
-/// What the scene conserves: nothing from outside may change it.
-struct Conserved {
-    energy: bool,
-    momentum: bool,
-    angular_momentum: bool,
-}
-
-impl Conserved {
-    fn of(scene: &Scene, record: &Record) -> Self {
-        let impacts = || record.events.iter().filter(|event| event.kind == EventKind::Impact);
-        let elastic = *scene.contact.restitution.get_ref() >= 1.0 || impacts().count() == 0;
-        let fixed = |index: usize| scene.body[index].fixed;
-        let struck_fixed = impacts().any(|event| fixed(event.a) || fixed(event.b));
-        // Constraints do no work; they pass momentum on to what is fixed.
-        let potential = |force: &Force| match force {
-            Force::InverseSquare(_) | Force::InverseSquareToPoint(_) => true,
-            Force::Spring(spring) => *spring.damping_n_s_m.get_ref() == 0.0,
-            Force::AtPoint(_) | Force::LinearDrag(_) | Force::QuadraticDrag(_) => false,
-        };
-        let mutual = |force: &Force| matches!(force, Force::InverseSquare(_) | Force::Spring(_));
-        let anchored = scene.particle.iter().any(|particle| particle.fixed)
-            || scene.chain.iter().any(|chain| !chain.fixed.is_empty())
-            || scene.net.iter().any(|net| !net.fixed.is_empty())
-            || scene.constraint.iter().any(|constraint| !matches!(constraint, Constraint::Distance(_)));
-        let isolated =
-            scene.force.iter().all(mutual) && !struck_fixed && !anchored && scene.gravity_m_s2.get_ref().0 == [0.0; 3];
-        Self {
-            energy: scene.force.iter().all(potential) && elastic,
-            momentum: isolated,
-            angular_momentum: isolated || central(scene, &scene.force) && !struck_fixed && !anchored,
-        }
-    }
-}
-
-/// Whether every force is mutual, or towards the origin, about which angular momentum is taken.
-fn central(scene: &Scene, forces: &[Force]) -> bool {
-    let central = |force: &Force| match force {
-        Force::InverseSquareToPoint(force) => force.point_m.get_ref().0 == [0.0; 3],
-        Force::InverseSquare(_) | Force::Spring(_) => true,
-        _ => false,
-    };
-    scene.gravity_m_s2.get_ref().0 == [0.0; 3] && forces.iter().all(central)
 }
 
 fn write_files(out: &Path, cast: &Cast, record: &Record, summary: &Summary) -> Result<(), WriteError> {
@@ -299,11 +285,18 @@ fn table(summary: &Summary, out: &Path) -> String {
         Some(("ang. mom. drift", drift(summary.angular_momentum_drift_rel))),
         with_bodies.then(|| ("max penetration", metres(summary.max_penetration_m))),
         summary.max_violation_m.map(|violation| ("max violation", held(violation, summary))),
+        distorted(summary).map(|distortion| ("max distortion", format!("{distortion:.1e}"))),
         Some(("state hash", summary.state_hash.clone())),
     ];
     let mut text: String = rows.iter().flatten().map(|(name, value)| format!("{name:<16} {value}\n")).collect();
     text += &format!("open             {}\n", out.join("run.html").display());
     text
+}
+
+/// The worst distortion, where an orientation can be distorted.
+fn distorted(summary: &Summary) -> Option<f64> {
+    let by_matrix = |solver: &BodySettings| solver.formulation == rigid::Form::Matrix.name();
+    summary.max_distortion.filter(|_| summary.settings.body_solvers.iter().any(by_matrix))
 }
 
 /// The worst violation, and what was asked for where it is more.
@@ -317,15 +310,23 @@ fn held(violation_m: f64, summary: &Summary) -> String {
 
 /// How many steps were made: of bodies, and of particles.
 fn steps(summary: &Summary) -> String {
-    let bodies = summary.steps.to_string();
-    match (&summary.particle_work, &summary.settings.particle_solver) {
-        (Some(work), Some(solver)) => {
-            let of = format!(
-                "{} by {} ({} rejected, {} evaluations)",
-                work.accepted_steps, solver.method, work.rejected_steps, work.rhs_evals
-            );
-            if summary.bodies > 0 { format!("{bodies}, particles {of}") } else { of }
+    let made = |accepted: u64, by: &str, rejected: u64, evals: u64| {
+        format!("{accepted} by {by} ({rejected} rejected, {evals} evaluations)")
+    };
+    let bodies = summary.body_work.as_ref().map(|work| {
+        let solvers = &summary.settings.body_solvers;
+        let methods: Vec<&str> = solvers.iter().map(|solver| solver.method.as_str()).collect();
+        match methods[..] {
+            [] => "none".to_owned(),
+            ["free_flight"] => format!("none: free flight, evaluated {} times", work.accepted_steps),
+            _ => made(work.accepted_steps, &methods.join(" and "), work.rejected_steps, work.rhs_evals),
         }
-        _ => bodies,
+    });
+    let particles = summary.particle_work.as_ref().zip(summary.settings.particle_solver.as_ref());
+    let particles =
+        particles.map(|(work, solver)| made(work.accepted_steps, &solver.method, work.rejected_steps, work.rhs_evals));
+    match (bodies, particles) {
+        (Some(bodies), Some(particles)) => format!("{bodies}, particles {particles}"),
+        (bodies, particles) => bodies.or(particles).unwrap_or_else(|| summary.steps.to_string()),
     }
 }

@@ -30,11 +30,16 @@ pub struct Summary {
     pub angular_momentum_drift_rel: Option<f64>,
     /// The deepest overlap at an event, m.
     pub max_penetration_m: f64,
-    /// The largest constraint violation, m; null without constraints.
+    /// The largest violation of a constraint or joint, m; null without either.
     pub max_violation_m: Option<f64>,
+    /// How far an orientation was from a rotation at most: the largest entry of |R^T R - 1| of a matrix R, ||R|² - 1| of a
+    /// rotor; null without bodies.
+    pub max_distortion: Option<f64>,
+    /// What the solution of the bodies' motion took; null without bodies.
+    pub body_work: Option<BodyWork>,
     /// What the solution of the particles' motion took; null without particles.
     pub particle_work: Option<ParticleWork>,
-    /// State of one body, bytes.
+    /// State of one body, bytes; of several formulations the largest.
     pub state_bytes_per_body: usize,
     /// State of one particle, bytes.
     pub state_bytes_per_particle: usize,
@@ -45,6 +50,47 @@ pub struct Summary {
     pub failure: Option<String>,
     /// What was set.
     pub settings: Settings,
+}
+
+/// What the solution of the bodies' motion took.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BodyWork {
+    /// Joints.
+    pub joints: usize,
+    /// Degrees of freedom that the joints take, those that several take counted as often.
+    pub joint_rows: usize,
+    /// Those of them that the others imply.
+    pub redundant_rows: usize,
+    /// The violation of joints that was asked for, m; null without joints.
+    pub asked_violation_m: Option<f64>,
+    /// Drifts in which joints turned too far for impulses along their directions at the start of a step: there they lose
+    /// energy.
+    pub redirected_drifts: u64,
+    /// Evaluations of the equations of motion.
+    pub rhs_evals: u64,
+    /// Steps, those of the search for impacts included; of free flight, evaluations.
+    pub accepted_steps: u64,
+    /// Steps that were too inaccurate, and made again.
+    pub rejected_steps: u64,
+}
+
+/// How the motion of the bodies of one formulation is solved.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BodySettings {
+    /// The formulation.
+    pub formulation: String,
+    /// How many bodies move in it.
+    pub bodies: usize,
+    /// The integrator.
+    pub method: String,
+    /// The longest step, s; null if there are none, or the method chooses them.
+    pub step_s: Option<f64>,
+    /// Relative tolerance; null if the method does not control its error.
+    pub rtol: Option<f64>,
+    /// Absolute tolerance, m and m/s; null if the method does not control its error.
+    pub atol: Option<f64>,
+    /// State of one body, bytes.
+    pub state_bytes_per_body: usize,
 }
 
 /// What the solution of the particles' motion took.
@@ -94,12 +140,12 @@ pub struct Settings {
     pub dt_s: Option<f64>,
     /// Frames a second of simulated time; null: every step.
     pub record_hz: Option<f64>,
-    /// The formulation of rigid motion.
+    /// The formulation of rigid motion where a body says nothing else.
     pub formulation: String,
     /// The scalar.
     pub scalar: String,
-    /// The integrator of bodies.
-    pub method: String,
+    /// The solvers of bodies, one for each formulation in which bodies move.
+    pub body_solvers: Vec<BodySettings>,
     /// The solver of particles; null without particles.
     pub particle_solver: Option<ParticleSettings>,
     /// Gravity, m/s².

@@ -16,9 +16,12 @@ use crate::scene::values::Numbers;
 mod forces;
 mod held;
 mod inertia;
+mod joints;
+mod methods;
 mod particles;
 mod relations;
 mod solver;
+mod springs;
 
 /// The largest number of steps of a run. One body takes about a microsecond a step, so that a run
 /// of this many lasts at least a quarter of an hour; more is nearly always a slip in `dt_s`.
@@ -29,6 +32,7 @@ pub(crate) fn check(scene: &Scene, source: &SceneSource, damage: &Damage) -> Vec
     let mut checker = Checker { found: Vec::new() };
     checker.times(scene, damage);
     checker.solver(scene);
+    checker.method(scene);
     checker.finite("gravity_m_s2", &scene.gravity_m_s2);
     checker.restitution(&scene.contact.restitution);
     checker.names(&scene.body);
@@ -46,6 +50,7 @@ pub(crate) fn check(scene: &Scene, source: &SceneSource, damage: &Damage) -> Vec
         checker.force(force, scene);
     }
     checker.force_targets(scene, roster.as_ref(), damage);
+    checker.joints(scene, damage);
     if let Some(roster) = &roster {
         checker.constraints(scene, roster, damage);
     }
@@ -211,6 +216,21 @@ impl Checker {
                 if let Some(bad) = bad {
                     self.report(not_finite("vertices_m", bad).at(vertices.span()));
                 }
+            }
+            Shape::Ball(ball) => {
+                self.positive("radius_m", &ball.radius_m, help);
+            }
+            Shape::Capsule(capsule) => {
+                self.positive("radius_m", &capsule.radius_m, help);
+                self.positive("length_m", &capsule.length_m, "a capsule without a cylinder is a `shape.ball`");
+            }
+            Shape::Cylinder(cylinder) => {
+                self.positive("radius_m", &cylinder.radius_m, help);
+                self.positive("length_m", &cylinder.length_m, help);
+            }
+            Shape::Cone(cone) => {
+                self.positive("radius_m", &cone.radius_m, help);
+                self.positive("height_m", &cone.height_m, help);
             }
             Shape::Mesh(_) => {}
             Shape::Plane(plane) => {

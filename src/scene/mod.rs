@@ -28,18 +28,20 @@
 //! #:schema ./scene.schema.json
 //! ```
 
+mod bodies;
 pub mod build;
 mod check;
 pub mod description;
 mod diagnostic;
 mod overrides;
 mod particles;
+mod pictures;
 pub mod plan;
 mod read;
 mod schema;
-mod solids;
 mod source;
 mod suggest;
+mod surfaces;
 mod translate;
 mod values;
 

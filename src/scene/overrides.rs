@@ -197,7 +197,9 @@ fn subtable<'a, 'p>(
     key: &Spanned<String>,
 ) -> Result<&'a mut Spanned<DeValue<'p>>, Diagnostic> {
     let name = key.get_ref().as_str();
-    if matches!(name, "body" | "particle" | "chain" | "net" | "force" | "constraint") && !table.contains_key(name) {
+    if matches!(name, "body" | "particle" | "chain" | "net" | "force" | "constraint" | "joint")
+        && !table.contains_key(name)
+    {
         let diagnostic = Diagnostic::new(format!("the scene has no [[{name}]]")).at(key.span());
         return Err(diagnostic.help("--set changes what the scene file has; add it there"));
     }

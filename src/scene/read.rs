@@ -242,11 +242,11 @@ fn insert(
 fn placeholder(key: &str) -> Option<DeValue<'static>> {
     let text = match key {
         "duration_s" | "angle_rad" | "base_m" | "height_m" | "k_kg_s" | "k_kg_m" | "mass_kg" | "stiffness_n_m"
-        | "constant_m3_kg_s2" | "constant_m3_s2" => "nan",
+        | "constant_m3_kg_s2" | "constant_m3_s2" | "radius_m" | "length_m" => "nan",
         "particles" | "columns" | "rows" => "0",
         "name" | "body" | "file" | "a" | "b" | "particle" => "''",
-        "axis" | "force_world_n" | "normal" | "size_m" | "from_m" | "to_m" | "column_step_m" | "row_step_m"
-        | "point_m" | "centre_m" | "direction" => "[nan, nan, nan]",
+        "axis" | "force_world_n" | "torque_world_n_m" | "normal" | "size_m" | "from_m" | "to_m" | "column_step_m"
+        | "row_step_m" | "point_m" | "centre_m" | "direction" => "[nan, nan, nan]",
         "vertices_m" => "[[nan, nan, nan], [0, 0, 0], [0, 0, 0], [0, 0, 0]]",
         _ => return None,
     };

@@ -121,7 +121,9 @@ fn wrong_type(found: &str, expected: &str, key: Option<&str>) -> Diagnostic {
     };
     let diagnostic = Diagnostic::new(message).label(format!("expected {expected}"));
     match key {
-        Some(list @ ("body" | "particle" | "chain" | "net" | "force" | "constraint")) if found == "a table" => {
+        Some(list @ ("body" | "particle" | "chain" | "net" | "force" | "constraint" | "joint"))
+            if found == "a table" =>
+        {
             diagnostic.help(format!("write [[{list}]] with two brackets: there can be several"))
         }
         Some("shape" | "orientation") => diagnostic.help(kinds(key)),
@@ -136,11 +138,15 @@ fn kinds(key: Option<&str>) -> &'static str {
         Some("orientation") => "for example `orientation.rotor = [1, 0, 0, 0]`",
         Some("force") => {
             "a [[force]] has one of `at_point`, `linear_drag`, `quadratic_drag`, `inverse_square`, \
-             `inverse_square_to_point`, `spring`, for example `linear_drag = { body = \"cube\", k_kg_s = 0.1 }`"
+             `inverse_square_to_point`, `spring`, `torque`, for example `linear_drag = { body = \"cube\", k_kg_s = 0.1 }`"
         }
         Some("constraint") => {
             "a [[constraint]] has one of `distance`, `distance_to_point`, `on_plane`, `on_sphere`, `on_line`, `on_circle`, \
              for example `distance = { a = \"one\", b = \"other\" }`"
+        }
+        Some("joint") => {
+            "a [[joint]] has one of `ball`, `hinge`, `distance`, for example \
+             `ball = { a = \"rod\", point_m = [0, 0, 0] }`"
         }
         _ => "write exactly one",
     }

@@ -5,6 +5,8 @@
 #![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
+mod bodies;
+mod body_messages;
 mod damage;
 mod files;
 mod messages;

@@ -16,7 +16,7 @@ const MISTAKES: &[(&str, &str)] = &[
     ("top-level key below a header", "+#gravity_m_s2 = [0, 0, -9.81]\n"),
     ("unknown table", "+[contacts]\nrestitution = 1\n"),
     ("unknown method", "+[solver]\nmethod = \"tsit\"\n"),
-    ("unknown name", "+formulation = \"motor\"\n[solver]\nscalar = \"f46\"\n"),
+    ("unknown name", "+formulation = \"dual\"\n[solver]\nscalar = \"f46\"\n"),
     ("unknown shape", "+[[body]]\nname = \"a\"\nmass_kg = 1\nshape.bax.size_m = [1, 1, 1]\n"),
     ("unknown key in a shape", "+[[body]]\nname = \"a\"\nmass_kg = 1\nshape.box.size = [1, 1, 1]\n"),
     ("two shapes", "+#shape.pyramid = { base_m = 1, height_m = 1 }\n"),

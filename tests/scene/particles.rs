@@ -225,9 +225,13 @@ fn states_are_asked_for_at_frames_where_the_method_chooses_its_steps() {
     // Given with a tolerance, dt_s is the largest step, and not when states are asked for.
     let limited = accepted(&format!("{SOUND}record_hz = 5\n{PENDULUM}"), &["solver.rtol=1e-6"]);
     assert_eq!((steps(&limited), interval_s(&limited)), (5, 0.2));
-    // A body needs its step, whatever solves the particles.
-    let body = "[[body]]\nname = \"c\"\nmass_kg = 1\nshape.box.size_m = [1, 1, 1]\n";
-    let both = accepted(&format!("{SOUND}{PENDULUM}{body}"), &["solver.method=tsit5"]);
+    // Bodies that can collide need a step, whatever solves the particles.
+    let body = |name: &str, x: f64| {
+        format!("[[body]]\nname = \"{name}\"\nmass_kg = 1\nposition_m = [{x:?}, 9, 9]\nshape.box.size_m = [1, 1, 1]\n")
+    };
+    let (one, two) = (body("c", 0.0), body("c", 0.0) + &body("d", 3.0));
+    let both = accepted(&format!("{SOUND}{PENDULUM}{one}"), &["solver.method=tsit5"]);
     assert_eq!(steps(&both), 100);
-    assert!(read(&format!("duration_s = 1\n{PENDULUM}{body}"), &[]).is_err());
+    assert_eq!(steps(&accepted(&format!("duration_s = 1\n{PENDULUM}{one}"), &[])), 60);
+    assert!(read(&format!("duration_s = 1\n{PENDULUM}{two}"), &[]).is_err());
 }

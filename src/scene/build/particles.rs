@@ -134,7 +134,7 @@ fn forces<T: Real>(scene: &Scene, roster: &Roster) -> Result<Vec<Force<T>>, Diag
     }
     for force in &scene.force {
         match force {
-            description::Force::AtPoint(_) => {}
+            description::Force::AtPoint(_) | description::Force::Torque(_) => {}
             description::Force::LinearDrag(drag) if drag.body.is_some() => {}
             description::Force::LinearDrag(drag) => {
                 let k = value(&drag.k_kg_s)?;
@@ -172,7 +172,7 @@ fn forces<T: Real>(scene: &Scene, roster: &Roster) -> Result<Vec<Force<T>>, Diag
 }
 
 fn ends(spring: &description::Spring, roster: &Roster) -> Option<[usize; 2]> {
-    Some([roster.one(spring.a.get_ref())?, roster.one(spring.b.get_ref())?])
+    Some([roster.one(spring.a.get_ref())?, roster.one(spring.b.as_ref()?.get_ref())?])
 }
 
 fn look(scene: &Scene, roster: &Roster, all: &[Held]) -> ParticleLook {

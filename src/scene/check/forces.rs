@@ -3,7 +3,8 @@
 use toml::Spanned;
 
 use super::Checker;
-use crate::scene::description::{Force, LinearDrag, Scene, Spring};
+use super::springs::is_of_bodies;
+use crate::scene::description::{Force, LinearDrag, Scene};
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::particles::Roster;
 use crate::scene::read::Damage;
@@ -16,21 +17,11 @@ impl Checker {
             Force::AtPoint(force) => {
                 self.finite("at_body_m", &force.at_body_m);
                 self.finite("force_world_n", &force.force_world_n);
-                let start = self.number("start_s", &force.start_s);
-                // Without an end the force lasts to the end of the run.
-                let (end, place) = match &force.end_s {
-                    Some(end) => (self.number("end_s", end), end.span()),
-                    None => (Some(*scene.duration_s.get_ref()), force.start_s.span()),
-                };
-                let (Some(start), Some(end)) = (start, end) else {
-                    return;
-                };
-                if start >= end {
-                    let message = format!("the force starts at {start:?} s, not before its end");
-                    let diagnostic = Diagnostic::new(message).at(place);
-                    let diagnostic = diagnostic.label(format!("it ends at {end:?} s"));
-                    self.report(diagnostic.help("make `start_s` smaller than `end_s`"));
-                }
+                self.span_of_time("force", &force.start_s, force.end_s.as_ref(), scene);
+            }
+            Force::Torque(torque) => {
+                self.finite("torque_world_n_m", &torque.torque_world_n_m);
+                self.span_of_time("torque", &torque.start_s, torque.end_s.as_ref(), scene);
             }
             Force::LinearDrag(drag) => {
                 const DRIVES: &str = "a negative drag would drive the motion";
@@ -64,6 +55,23 @@ impl Checker {
         }
     }
 
+    /// When a force acts.
+    fn span_of_time(&mut self, what: &str, start: &Spanned<f64>, end: Option<&Spanned<f64>>, scene: &Scene) {
+        // Without an end the force lasts to the end of the run.
+        let (end, place) = match end {
+            Some(end) => (self.number("end_s", end), end.span()),
+            None => (Some(*scene.duration_s.get_ref()), start.span()),
+        };
+        let (Some(start), Some(end)) = (self.number("start_s", start), end) else {
+            return;
+        };
+        if start >= end {
+            let message = format!("the {what} starts at {start:?} s, not before its end");
+            let diagnostic = Diagnostic::new(message).at(place).label(format!("it ends at {end:?} s"));
+            self.report(diagnostic.help("make `start_s` smaller than `end_s`"));
+        }
+    }
+
     fn not_negative(&mut self, key: &str, value: &Spanned<f64>, help: &str) {
         if let Some(x) = self.number(key, value).filter(|x| *x < 0.0) {
             let diagnostic = Diagnostic::new(format!("`{key}` must not be negative, not {x:?}"));
@@ -88,6 +96,8 @@ impl Checker {
         for force in &scene.force {
             match force {
                 Force::AtPoint(force) => self.force_body(&force.body, scene, damage),
+                Force::Torque(torque) => self.force_body(&torque.body, scene, damage),
+                Force::Spring(spring) if is_of_bodies(spring, scene) => self.spring_of_bodies(spring, scene, damage),
                 Force::LinearDrag(LinearDrag { body: Some(body), .. }) => self.force_body(body, scene, damage),
                 _ => {}
             }
@@ -124,7 +134,7 @@ impl Checker {
                         self.report(diagnostic.help("move one of them, or give the force a `softening_m`"));
                     }
                 }
-                Force::Spring(spring) => self.spring(spring, roster),
+                Force::Spring(spring) if !is_of_bodies(spring, scene) => self.spring_of_particles(spring, roster),
                 _ => {}
             }
         }
@@ -161,23 +171,6 @@ impl Checker {
         }
     }
 
-    fn spring(&mut self, spring: &Spring, roster: &Roster) {
-        let Some([a, b]) = self.pair(&spring.a, &spring.b, roster) else {
-            return;
-        };
-        let apart = roster.position[a] != roster.position[b];
-        let rest = spring.rest_length_m.as_ref().map_or(0.0, |rest| *rest.get_ref());
-        if !apart && rest > 0.0 {
-            let message = format!(
-                "`{}` and `{}` are at one place: the spring has no direction",
-                spring.a.get_ref(),
-                spring.b.get_ref()
-            );
-            let diagnostic = Diagnostic::new(message).at(spring.b.span());
-            self.report(diagnostic.help("move one of them, or set `rest_length_m = 0`"));
-        }
-    }
-
     /// What a force on a body acts on.
     fn force_body(&mut self, body: &Spanned<String>, scene: &Scene, damage: &Damage) {
         let name = body.get_ref();
@@ -190,17 +183,21 @@ impl Checker {
             Some(_) => {}
             // The body may be the one whose name could not be read.
             None if damage.of_names(scene) => {}
-            None => {
-                let names = || scene.body.iter().map(|body| body.name.get_ref().as_str());
-                let mut diagnostic = at_body(format!("no body is named `{name}`"));
-                if let Some(near) = suggest::closest(name, names()) {
-                    diagnostic = diagnostic.label(format!("did you mean `{near}`?"));
-                }
-                self.report(diagnostic.help(match scene.body.is_empty() {
-                    true => "the scene has no bodies".to_owned(),
-                    false => format!("the bodies are {}", suggest::list(names())),
-                }));
-            }
+            None => self.report(unknown_body(body, scene)),
         }
     }
+}
+
+/// Says that no body has this name, and which there are.
+pub(super) fn unknown_body(body: &Spanned<String>, scene: &Scene) -> Diagnostic {
+    let name = body.get_ref();
+    let names = || scene.body.iter().map(|body| body.name.get_ref().as_str());
+    let mut diagnostic = Diagnostic::new(format!("no body is named `{name}`")).at(body.span());
+    if let Some(near) = suggest::closest(name, names()) {
+        diagnostic = diagnostic.label(format!("did you mean `{near}`?"));
+    }
+    diagnostic.help(match scene.body.is_empty() {
+        true => "the scene has no bodies".to_owned(),
+        false => format!("the bodies are {}", suggest::list(names())),
+    })
 }

@@ -13,9 +13,9 @@ use crate::scene::particles::{Held, Roster, held};
 use crate::scene::read::Damage;
 use crate::scene::suggest;
 
-/// A start may break a constraint by this much of its length. Numbers are written with ten digits or more where they
+/// A start may break a constraint or joint by this much of its length. Numbers are written with ten digits or more where they
 /// are meant exactly, and the first projection takes away what is left; what is off by more is meant otherwise.
-const OFF_BY: f64 = 1e-9;
+pub(super) const OFF_BY: f64 = 1e-9;
 
 /// A coordinate is off by half an ulp as it is read, and a distance by that of six coordinates, each at most the largest.
 const ROUNDING: f64 = 3.0 * f64::EPSILON;
@@ -209,7 +209,7 @@ fn length_of(constraint: &Constraint) -> Option<&Spanned<f64>> {
 }
 
 /// What a distance may be off by: of its own size, and of the coordinates.
-fn allowed(size: f64, points: [Point<f64>; 2]) -> f64 {
+pub(super) fn allowed(size: f64, points: [Point<f64>; 2]) -> f64 {
     let largest = points.iter().flat_map(|point| <[f64; 3]>::from(*point)).fold(0.0, |max, x| f64::max(max, x.abs()));
     OFF_BY * size + ROUNDING * largest
 }

@@ -112,19 +112,24 @@ impl Checker {
 
     /// A step may be left out where nothing is stepped by it.
     fn missing_step(&mut self, scene: &Scene) {
-        let method = scene.solver.method.as_ref().filter(|method| !method.get_ref().is_adaptive());
-        if let (Some(method), true) = (method, scene.body.is_empty()) {
+        if plan::chooses_steps(scene) {
+            return;
+        }
+        const ADD: &str = "add `dt_s = ..` at the top, above the first [table]";
+        let fixed =
+            |method: &&Spanned<Method>| !method.get_ref().is_adaptive() && *method.get_ref() != Method::FreeFlight;
+        let can_collide = plan::pairs::collision_pairs(scene) > 0;
+        let nothing_moves = plan::formulations(scene).is_empty() && particles::count(scene) == 0.0;
+        let method = scene.solver.method.as_ref().filter(fixed).filter(|_| !can_collide && !nothing_moves);
+        if let Some(method) = method {
             let name = method.get_ref().name();
             let diagnostic = Diagnostic::new(format!("`{name}` makes steps of `dt_s`, and the scene has none"));
             let adaptive = Method::Tsit5.name();
-            self.report(diagnostic.at(method.span()).help(format!(
-                "add `dt_s = ..` at the top, above the first [table], or use a method that chooses its steps, such as \
-                 `{adaptive}`"
-            )));
-        } else if !scene.body.is_empty() || particles::count(scene) == 0.0 {
-            let help = "add `dt_s = ..` at the top, above the first [table]";
-            self.report(Diagnostic::new("the scene has no `dt_s`").help(help));
+            let help = format!("{ADD}, or use a method that chooses its steps, such as `{adaptive}`");
+            return self.report(diagnostic.at(method.span()).help(help));
         }
+        let help = if can_collide { format!("{ADD}: collisions are looked for every `dt_s`") } else { ADD.to_owned() };
+        self.report(Diagnostic::new("the scene has no `dt_s`").help(help));
     }
 
     /// Frames are held in memory until the run ends.
@@ -133,7 +138,9 @@ impl Checker {
         #[expect(clippy::cast_precision_loss, reason = "a number of bodies")]
         let bodies = scene.body.len() as f64;
         let each = (bodies + particles::count(scene) / 2.0).max(1.0);
-        let frames = if plan::chooses_steps(scene) { duration * hz } else { steps.min(duration * hz) };
+        // Where steps are chosen, there may be more frames than steps of `dt_s`.
+        let chosen = plan::chooses_steps(scene) && hz.is_finite();
+        let frames = if chosen { duration * hz } else { steps.min(duration * hz) };
         if frames * each > MAX_RECORDED {
             let place = scene.record_hz.as_ref().or(scene.dt_s.as_ref()).unwrap_or(&scene.duration_s);
             let (states, most) = (frames * each, MAX_RECORDED / each / duration);

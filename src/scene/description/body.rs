@@ -1,17 +1,17 @@
-//! Rigid bodies, their orientations and shapes.
+//! Rigid bodies and their orientations.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::{one, zeros};
-use crate::scene::values::{Inertia, Numbers, Vertices};
+use super::{Formulation, Shape, one, zeros};
+use crate::scene::values::{Inertia, Numbers};
 
 /// A rigid body. Its frame has the shape's axes and its origin in the centre of mass.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Body {
-    /// The name that forces and outputs refer to. Unique in the scene.
+    /// The name that forces, joints and outputs refer to. Unique in the scene.
     #[schemars(with = "String", length(min = 1))]
     pub name: Spanned<String>,
     /// The mass, in kg. Required unless the body is fixed.
@@ -47,6 +47,10 @@ pub struct Body {
     /// A fixed body never moves; it needs no mass and has no velocity.
     #[serde(default)]
     pub fixed: bool,
+    /// How the motion of this body is written, where it is not as that of the others. Bodies that a joint or spring links
+    /// have one formulation.
+    #[schemars(with = "Option<Formulation>")]
+    pub formulation: Option<Spanned<Formulation>>,
     /// The shape.
     pub shape: Option<Shape>,
 }
@@ -73,69 +77,4 @@ pub struct AxisAngle {
     /// The angle, in rad.
     #[schemars(with = "f64")]
     pub angle_rad: Spanned<f64>,
-}
-
-/// A shape. It is moved so that the centre of mass becomes the origin of the body frame.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Shape {
-    /// A box with edges along the axes.
-    Box(BoxShape),
-    /// A pyramid on a square base in the xy plane, sides along x and y, apex on +z.
-    Pyramid(Pyramid),
-    /// A tetrahedron.
-    Tetrahedron(Tetrahedron),
-    /// A convex body from a mesh file.
-    Mesh(Mesh),
-    /// A half-space that nothing enters; for fixed bodies only.
-    Plane(Plane),
-}
-
-/// A box with edges along the axes.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct BoxShape {
-    /// The whole edge lengths along [x, y, z], in m.
-    #[schemars(with = "Numbers<3>")]
-    pub size_m: Spanned<Numbers<3>>,
-}
-
-/// A pyramid on a square base in the xy plane, sides along x and y, apex on +z.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Pyramid {
-    /// The side of the base, in m.
-    #[schemars(with = "f64", extend("exclusiveMinimum" = 0))]
-    pub base_m: Spanned<f64>,
-    /// The height of the apex over the base, in m.
-    #[schemars(with = "f64", extend("exclusiveMinimum" = 0))]
-    pub height_m: Spanned<f64>,
-}
-
-/// A tetrahedron.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Tetrahedron {
-    /// The four vertices [x, y, z], in m, in any order and about any origin.
-    #[schemars(with = "[Numbers<3>; 4]")]
-    pub vertices_m: Spanned<Vertices>,
-}
-
-/// A convex body from a mesh file.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Mesh {
-    /// The mesh file, relative to the directory of the scene file; lengths in m.
-    #[schemars(with = "String", length(min = 1))]
-    pub file: Spanned<String>,
-}
-
-/// A half-space that nothing enters; for fixed bodies only.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Plane {
-    /// The normal [x, y, z] in the body frame, of any length but zero. The plane goes through
-    /// `position_m`; bodies stay on the side that the normal points to.
-    #[schemars(with = "Numbers<3>")]
-    pub normal: Spanned<Numbers<3>>,
 }

@@ -21,8 +21,10 @@ pub enum Force {
     InverseSquare(InverseSquare),
     /// An attraction of all particles to a point: D m / r².
     InverseSquareToPoint(InverseSquareToPoint),
-    /// A spring with a damper between two particles.
+    /// A spring with a damper between two particles, two bodies, or a body and a point of the world.
     Spring(Spring),
+    /// A constant torque on a body.
+    Torque(Torque),
 }
 
 /// A constant force that acts on a point of a body.
@@ -110,16 +112,26 @@ pub struct InverseSquareToPoint {
     pub softening_m: Spanned<f64>,
 }
 
-/// A spring with a damper between two particles: force k (r - l) + c dr/dt along their line.
+/// A spring with a damper between two particles, two bodies, or a body and a point of the world: force
+/// k (r - l) + c dr/dt along their line.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Spring {
-    /// The name of the first particle.
+    /// The name of the first particle or body.
     #[schemars(with = "String")]
     pub a: Spanned<String>,
-    /// The name of the second particle.
-    #[schemars(with = "String")]
-    pub b: Spanned<String>,
+    /// The name of the second particle or body. For a body, `to_m` can take its place.
+    #[schemars(with = "Option<String>")]
+    pub b: Option<Spanned<String>>,
+    /// The point of the first body [x, y, z], in m, in its frame. Default: its centre of mass.
+    #[schemars(with = "Option<Numbers<3>>")]
+    pub at_a_body_m: Option<Spanned<Numbers<3>>>,
+    /// The point of the second body [x, y, z], in m, in its frame. Default: its centre of mass.
+    #[schemars(with = "Option<Numbers<3>>")]
+    pub at_b_body_m: Option<Spanned<Numbers<3>>>,
+    /// The point of the world [x, y, z], in m, in the place of a second body.
+    #[schemars(with = "Option<Numbers<3>>")]
+    pub to_m: Option<Spanned<Numbers<3>>>,
     /// k, in N/m.
     #[schemars(with = "f64", range(min = 0))]
     pub stiffness_n_m: Spanned<f64>,
@@ -130,4 +142,24 @@ pub struct Spring {
     /// l, in m. Default: the distance at the start.
     #[schemars(with = "Option<f64>", range(min = 0))]
     pub rest_length_m: Option<Spanned<f64>>,
+}
+
+/// A constant torque on a body.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Torque {
+    /// The name of the body.
+    #[schemars(with = "String")]
+    pub body: Spanned<String>,
+    /// The torque, in N m, in the world frame: the bivector components [e23, e31, e12], which read like the axial vector
+    /// [x, y, z].
+    #[schemars(with = "Numbers<3>")]
+    pub torque_world_n_m: Spanned<Numbers<3>>,
+    /// When the torque sets in, in s.
+    #[serde(default = "zero")]
+    #[schemars(with = "f64")]
+    pub start_s: Spanned<f64>,
+    /// When the torque ends, in s. Default: the end of the run.
+    #[schemars(with = "Option<f64>")]
+    pub end_s: Option<Spanned<f64>>,
 }

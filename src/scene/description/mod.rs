@@ -12,18 +12,23 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
+use crate::rigid;
 use crate::scene::values::Numbers;
 
 mod body;
 mod constraint;
 mod force;
+mod joint;
 mod particle;
+mod shape;
 mod solver;
 
-pub use body::{AxisAngle, Body, BoxShape, Mesh, Orientation, Plane, Pyramid, Shape, Tetrahedron};
+pub use body::{AxisAngle, Body, Orientation};
 pub use constraint::{Constraint, Distance, DistanceToPoint, OnCircle, OnLine, OnPlane, OnSphere};
-pub use force::{AtPoint, Force, InverseSquare, InverseSquareToPoint, LinearDrag, QuadraticDrag, Spring};
+pub use force::{AtPoint, Force, InverseSquare, InverseSquareToPoint, LinearDrag, QuadraticDrag, Spring, Torque};
+pub use joint::{BallJoint, DistanceJoint, HingeJoint, Joint};
 pub use particle::{Chain, ChainEnd, Net, NetFixed, NetPart, Particle};
+pub use shape::{Ball, BoxShape, Capsule, Cone, Cylinder, Mesh, Plane, Pyramid, Shape, Tetrahedron};
 pub use solver::{ConstraintSolver, Method, Scalar, Solver, Stabilisation};
 
 /// A scene for `ga-physics run`: bodies, particles, forces, gravity, and how long to simulate them.
@@ -34,8 +39,8 @@ pub struct Scene {
     /// How long the run lasts, in s. Positive.
     #[schemars(with = "f64", extend("exclusiveMinimum" = 0))]
     pub duration_s: Spanned<f64>,
-    /// The time step, in s. Positive, at most `duration_s`. Where particles choose their steps by `rtol` it is the largest,
-    /// and may be left out in a scene without bodies.
+    /// The time step, in s. Positive, at most `duration_s`. Where steps are chosen by `rtol` it is the largest, and may be
+    /// left out unless bodies can collide.
     #[schemars(with = "Option<f64>", extend("exclusiveMinimum" = 0))]
     pub dt_s: Option<Spanned<f64>>,
     /// How many frames per second of simulated time are recorded, in 1/s. Without it every step is; 60 where the steps
@@ -46,9 +51,10 @@ pub struct Scene {
     #[serde(default = "zeros")]
     #[schemars(with = "Numbers<3>")]
     pub gravity_m_s2: Spanned<Numbers<3>>,
-    /// How the motion of a rigid body is written.
-    #[serde(default)]
-    pub formulation: Formulation,
+    /// How the motion of rigid bodies is written.
+    #[serde(default = "rotor")]
+    #[schemars(with = "Formulation")]
+    pub formulation: Spanned<Formulation>,
     /// How the motion is solved.
     #[serde(default)]
     pub solver: Solver,
@@ -73,15 +79,46 @@ pub struct Scene {
     /// What holds particles, besides the links of chains and nets.
     #[serde(default)]
     pub constraint: Vec<Constraint>,
+    /// What joins bodies to one another or to the world.
+    #[serde(default)]
+    pub joint: Vec<Joint>,
 }
 
 /// How the motion of a rigid body is written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, serde::Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Deserialize, serde::Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Formulation {
+    /// Orientation as a rotation matrix of nine numbers, which the steps distort: nothing puts it right.
+    Matrix,
+    /// Orientation as a unit quaternion.
+    Quaternion,
     /// Orientation as a rotor of G(3), angular quantities as bivectors.
     #[default]
     Rotor,
+    /// Position and orientation as one conformal motor of eight numbers.
+    Motor,
+}
+
+impl Formulation {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Matrix, Self::Quaternion, Self::Rotor, Self::Motor];
+
+    /// As it is written in a scene.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.form().name()
+    }
+
+    /// The same for bodies in motion.
+    #[must_use]
+    pub fn form(self) -> rigid::Form {
+        match self {
+            Self::Matrix => rigid::Form::Matrix,
+            Self::Quaternion => rigid::Form::Quaternion,
+            Self::Rotor => rigid::Form::Rotor,
+            Self::Motor => rigid::Form::Motor,
+        }
+    }
 }
 
 /// What happens where bodies touch.
@@ -107,6 +144,12 @@ impl Scene {
     pub fn body_idx(&self, name: &str) -> Option<usize> {
         self.body.iter().position(|body| body.name.get_ref() == name)
     }
+
+    /// How the motion of a body is written: as it says, else as the scene does.
+    #[must_use]
+    pub fn formulation_of(&self, body: &Body) -> Formulation {
+        *body.formulation.as_ref().unwrap_or(&self.formulation).get_ref()
+    }
 }
 
 fn zeros() -> Spanned<Numbers<3>> {
@@ -119,4 +162,8 @@ fn one() -> Spanned<f64> {
 
 fn zero() -> Spanned<f64> {
     Spanned::new(0..0, 0.0)
+}
+
+fn rotor() -> Spanned<Formulation> {
+    Spanned::new(0..0, Formulation::Rotor)
 }

@@ -1,15 +1,19 @@
 //! What a scene needs, before it is run: what will be modelled, what is left out and why, what it will cost.
 
+mod bodies;
+pub(crate) mod pairs;
 mod particles;
 mod solver;
 mod steps;
 
+pub use bodies::{BodySolverPlan, formulations};
+pub use pairs::joined_pairs;
 pub use solver::SolverPlan;
-pub use steps::{DEFAULT_RECORD_HZ, adapts, chooses_steps, interval_s, record_hz, steps};
+pub use steps::{DEFAULT_RECORD_HZ, Stepping, adapts, chooses_steps, interval_s, record_hz, steps};
 
 use crate::particle::Particles;
-use crate::rigid::Bodies;
-use crate::scene::description::{Body, Force, Scalar, Scene, Shape};
+use crate::scene::bodies::Loads;
+use crate::scene::description::{Body, Formulation, Scalar, Scene, Shape};
 use particles::Census;
 use serde::Serialize;
 use std::fmt;
@@ -41,6 +45,12 @@ pub struct Plan {
     pub moving_bodies: usize,
     /// Pairs of bodies that are tested for collision.
     pub collision_pairs: usize,
+    /// Joints.
+    pub joints: usize,
+    /// Degrees of freedom that the joints take, those that several take counted as often.
+    pub joint_rows: usize,
+    /// How the motion of the bodies is solved, by formulation.
+    pub body_solvers: Vec<BodySolverPlan>,
     /// Particles in all.
     pub particles: usize,
     /// Particles that move.
@@ -51,6 +61,8 @@ pub struct Plan {
     pub particle_solver: Option<SolverPlan>,
     /// Steps; where the method chooses them, the frames that it goes from and to.
     pub steps: u64,
+    /// Who chooses the steps.
+    pub stepping: Stepping,
     /// The length of all but the last step, s; where the method chooses them, the largest; null if there is none.
     pub dt_s: Option<f64>,
     /// The fastest spin at the start, rad/s.
@@ -59,8 +71,9 @@ pub struct Plan {
     pub state_bytes_per_body: usize,
     /// State of one particle, bytes.
     pub state_bytes_per_particle: usize,
-    /// Evaluations of the equations of motion of the bodies, without those of the search for impacts.
-    pub expected_rhs_evals: u64,
+    /// Evaluations of the equations of motion of the bodies, without those of the search for impacts; null where the
+    /// method chooses its steps.
+    pub expected_rhs_evals: Option<u64>,
     /// Evaluations of the forces on the particles; null where the method chooses its steps.
     pub expected_particle_evals: Option<u64>,
     /// What will be modelled.
@@ -77,47 +90,49 @@ pub fn plan(scene: &Scene) -> Plan {
     let dt_s = scene.dt_s.as_ref().map(|dt| *dt.get_ref());
     let steps = steps(scene);
     let census = Census::of(scene);
+    let loads = Loads::of_all(scene);
     let particle_solver = (census.particles > 0).then(|| solver::choose(scene, &census));
     let evals_per_step = particle_solver.as_ref().and_then(SolverPlan::evals_per_step);
-    let per_step = if scene.body.is_empty() { 0 } else { 7 };
+    let body_solvers = BodySolverPlan::of(scene);
+    let per_step = body_solvers.iter().map(BodySolverPlan::evals_per_step).sum::<Option<u64>>();
     let f64_scalar = scene.solver.scalar == Scalar::F64;
     let mut plan = Plan {
         bodies: scene.body.len(),
         moving_bodies: moving.len(),
-        collision_pairs: collision_pairs(scene),
+        collision_pairs: pairs::collision_pairs(scene),
+        joints: loads.joints,
+        joint_rows: loads.joint_rows,
         particles: census.particles,
         moving_particles: census.moving,
         constraints: census.constraints,
         particle_solver,
         steps,
+        stepping: steps::stepping(scene),
         dt_s,
         fastest_spin_rad_s,
-        state_bytes_per_body: if f64_scalar {
-            Bodies::<f64>::bytes_per_body()
-        } else {
-            Bodies::<f32>::bytes_per_body()
-        },
+        state_bytes_per_body: state_bytes_per_body(&body_solvers, scene.solver.scalar),
         state_bytes_per_particle: if f64_scalar {
             Particles::<f64>::bytes_per_particle()
         } else {
             Particles::<f32>::bytes_per_particle()
         },
-        expected_rhs_evals: steps.saturating_mul(per_step),
+        expected_rhs_evals: per_step.map(|evals| steps.saturating_mul(evals)),
         expected_particle_evals: evals_per_step.map(|evals| steps.saturating_mul(evals)),
+        body_solvers,
         modelled: vec![],
         left_out: vec![],
     };
     plan.choose(scene.gravity_m_s2.get_ref().0 != [0.0; 3], "gravity", "uniform", "`gravity_m_s2` is zero");
-    plan.rigid_bodies(scene);
+    plan.rigid_bodies(scene, &loads);
     plan.particles(scene, &census);
     plan
 }
 
-/// Pairs of bodies with shapes of which one moves.
-fn collision_pairs(scene: &Scene) -> usize {
-    let shaped = |fixed: bool| scene.body.iter().filter(|body| body.shape.is_some() && body.fixed == fixed).count();
-    let (fixed, moving) = (shaped(true), shaped(false));
-    moving * fixed + moving * moving.saturating_sub(1) / 2
+/// Of all formulations in the scene the largest state of a body, bytes; of the default one where no body moves.
+#[must_use]
+pub fn state_bytes_per_body(solvers: &[BodySolverPlan], scalar: Scalar) -> usize {
+    let largest = solvers.iter().map(|solver| solver.state_bytes_per_body).max();
+    largest.unwrap_or_else(|| bodies::state_bytes(Formulation::Rotor, scalar))
 }
 
 fn scalar_name(scene: &Scene) -> &'static str {
@@ -133,19 +148,59 @@ fn spin(body: &Body) -> f64 {
 }
 
 impl Plan {
-    fn rigid_bodies(&mut self, scene: &Scene) {
+    fn rigid_bodies(&mut self, scene: &Scene, loads: &Loads) {
         if scene.body.is_empty() {
             return self.leave_out("bodies", "the scene has no [[body]]");
         }
         let scalar = scalar_name(scene);
-        let how = format!("G(3,0) rotor form, RK4 with renormalisation, {scalar} with f64 world positions");
-        self.model("rigid motion", how);
-        let at_point = scene.force.iter().filter(|force| matches!(force, Force::AtPoint(_))).count();
-        let how = format!("{at_point}, steps cut where they start and end");
-        self.choose(at_point > 0, "forces at points", &how, "no [[force]] names one");
-        let drag =
-            scene.force.iter().filter(|force| matches!(force, Force::LinearDrag(drag) if drag.body.is_some())).count();
-        self.choose(drag > 0, "drag on bodies", &format!("linear, {drag}"), "no [[force]] names one");
+        for solver in self.body_solvers.clone() {
+            self.moved(scene, scalar, &solver);
+        }
+        let (points, torques) = (loads.at_points, loads.torques);
+        let how = format!("{points}, steps cut where they start and end");
+        self.choose(points > 0, "forces at points", &how, "no [[force]] names one");
+        let how = format!("{torques}, steps cut where they start and end");
+        self.choose(torques > 0, "torques", &how, "no [[force]] `torque`");
+        self.choose(loads.drags > 0, "drag on bodies", &format!("linear, {}", loads.drags), "no [[force]] names one");
+        let how = format!("{}, {} with a damper", loads.springs, loads.dampers);
+        self.choose(loads.springs > 0, "springs on bodies", &how, "no [[force]] `spring` names one");
+        let how = format!("{}, which take {} degrees of freedom", loads.joints, loads.joint_rows);
+        self.choose(loads.joints > 0, "joints", &how, "the scene has no [[joint]]");
+        self.collisions(scene);
+    }
+
+    /// How the bodies of one formulation are moved.
+    fn moved(&mut self, scene: &Scene, scalar: &str, solver: &BodySolverPlan) {
+        let count = if solver.bodies == 1 { "1 body".into() } else { format!("{} bodies", solver.bodies) };
+        let form = match solver.formulation {
+            Formulation::Matrix => "3x3 rotation matrix, not renormalised",
+            Formulation::Quaternion => "unit quaternion",
+            Formulation::Rotor => "G(3,0) rotor form",
+            Formulation::Motor => "conformal motor form",
+        };
+        self.model("rigid motion", format!("{count}, {form}, {scalar} with f64 world positions"));
+        let name = solver.method.name();
+        self.model("solver of bodies", format!("`{name}`: {}", solver.why));
+        if solver.adaptive {
+            let how = format!("rtol {:e}, atol {:e}, the largest of all errors", solver.rtol, solver.atol);
+            self.model("their steps", how);
+        } else if scene.solver.rtol.is_some() {
+            self.leave_out("tolerances of bodies", &format!("`{name}` does not control its error"));
+        }
+        if solver.is_exact() {
+            let why = match self.collision_pairs {
+                0 => "the motion is evaluated at each frame, however far apart",
+                _ => "the motion is evaluated every `dt_s`, to look for collisions",
+            };
+            self.leave_out("steps of bodies", why);
+        }
+        if solver.joints > 0 {
+            let how = format!("{}, {} rows, violation {:e}", solver.joints, solver.joint_rows, solver.violation);
+            self.model("joints of these", how);
+        }
+    }
+
+    fn collisions(&mut self, scene: &Scene) {
         let planes = scene.body.iter().any(|body| matches!(body.shape, Some(Shape::Plane(_))));
         let pairs = self.collision_pairs;
         let how = format!(
@@ -154,6 +209,16 @@ impl Plan {
             if planes { "half-spaces, " } else { "" }
         );
         self.choose(pairs > 0, "collisions", &how, "no two bodies with shapes of which one moves");
+        let round = |body: &&Body| body.shape.as_ref().is_some_and(|shape| !shape.collides());
+        let round = scene.body.iter().filter(round).count();
+        if round > 0 {
+            let why =
+                format!("do not collide yet: {round} balls, capsules, cylinders or cones pass through everything");
+            self.leave_out("round shapes", &why);
+        }
+        if !joined_pairs(scene).is_empty() {
+            self.leave_out("jointed pairs", "bodies that a joint links do not collide with one another");
+        }
         self.leave_out("resting contact", "not modelled: bodies that stay in contact end the run");
     }
 
@@ -191,15 +256,25 @@ impl Plan {
         let with = |count: usize, moving: usize, bytes: usize| {
             format!("{count} ({moving} moving), {bytes} bytes of state each")
         };
-        let steps = match (self.dt_s, self.chooses_steps()) {
-            (Some(dt_s), false) => format!("{} of {dt_s} s", self.steps),
-            (Some(dt_s), true) => format!("chosen by the method, at most {dt_s} s, between {} frames", self.steps + 1),
-            (None, _) => format!("chosen by the method, between {} frames", self.steps + 1),
+        let between = format!("between {} frames", self.steps + 1);
+        let steps = match (self.stepping, self.dt_s) {
+            (Stepping::None, _) => format!("none: evaluated {between}"),
+            (Stepping::Chosen, Some(dt_s)) => format!("chosen by the method, at most {dt_s} s, {between}"),
+            (Stepping::Chosen, None) => format!("chosen by the method, {between}"),
+            (Stepping::Fixed, dt_s) => format!("{} of {} s", self.steps, dt_s.unwrap_or_default()),
         };
         write!(f, "  {:<18} {steps}", "steps")?;
         if self.bodies > 0 {
-            line(f, "bodies", &with(self.bodies, self.moving_bodies, self.state_bytes_per_body))?;
-            line(f, "rhs evaluations", &format!("{} of all bodies, impacts apart", self.expected_rhs_evals))?;
+            line(f, "bodies", &format!("{} ({} moving)", self.bodies, self.moving_bodies))?;
+            for solver in &self.body_solvers {
+                let (name, bytes) = (solver.formulation.name(), solver.state_bytes_per_body);
+                line(f, &format!("bytes by {name}"), &format!("{bytes}, {} moving", solver.bodies))?;
+            }
+            match self.expected_rhs_evals {
+                Some(0) => line(f, "rhs evaluations", "none")?,
+                Some(evals) => line(f, "rhs evaluations", &format!("{evals} of all bodies, impacts apart"))?,
+                None => line(f, "rhs evaluations", "as many as the tolerance asks for")?,
+            }
         }
         if self.particles > 0 {
             line(f, "particles", &with(self.particles, self.moving_particles, self.state_bytes_per_particle))?;

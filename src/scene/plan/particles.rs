@@ -40,10 +40,6 @@ impl Census {
 }
 
 impl Plan {
-    pub(super) fn chooses_steps(&self) -> bool {
-        self.bodies == 0 && self.particle_solver.as_ref().is_some_and(|solver| solver.adaptive)
-    }
-
     pub(super) fn particles(&mut self, scene: &Scene, census: &Census) {
         let Some(solver) = self.particle_solver.clone() else {
             return self.leave_out("particles", "the scene has no [[particle]], [[chain]] or [[net]]");
@@ -55,7 +51,7 @@ impl Plan {
         let how = format!("rtol {:e}, atol {:e} m and m/s, the largest of all errors", solver.rtol, solver.atol);
         self.choose(solver.adaptive, "step control", &how, &format!("`{name}` makes steps of `dt_s`"));
         let stabilised = match solver.stabilisation {
-            _ if solver.method.of_particles().splits() => "held in each step by RATTLE",
+            _ if solver.splits() => "held in each step by RATTLE",
             Stabilisation::Projection => "projected after each step",
             Stabilisation::Baumgarte => "damped by Baumgarte's terms",
             Stabilisation::None => "not stabilised",
@@ -84,7 +80,7 @@ impl Plan {
         }
         let how = format!("{} that depend on the velocity", census.drags);
         self.choose(census.drags > 0, "drag on particles", &how, "no [[force]] names particles for it");
-        if census.drags > 0 && solver.method.of_particles().splits() {
+        if census.drags > 0 && solver.splits() {
             self.leave_out(
                 "full order in drag",
                 &format!("`{name}` is of order 1 in forces that depend on the velocity"),

@@ -25,6 +25,8 @@ const DIRECT_UP_TO: usize = 50_000;
 /// anywhere, and what is just seen.
 const VIOLATION: f64 = 1e-12;
 const VIOLATION_BY_SWEEPS: f64 = 1e-2;
+/// Of joints there are few, and projection goes to rounding.
+const VIOLATION_OF_JOINTS: f64 = 1e-13;
 /// In f32 velocities err by this in the time of a step: lengths are not better.
 const VIOLATION_F32: f64 = 1e-6;
 
@@ -52,6 +54,8 @@ pub struct SolverPlan {
     pub substeps: Option<u32>,
     /// Steps are chosen by their error; else they are `dt_s`.
     pub adaptive: bool,
+    #[serde(skip)]
+    integrator: particle::Method,
 }
 
 impl SolverPlan {
@@ -66,7 +70,7 @@ impl SolverPlan {
     pub fn of_particles(&self, dt_s: f64) -> particle::Solver {
         let tolerance = Tolerance { rtol: self.rtol, atol: self.atol };
         particle::Solver {
-            method: self.method.of_particles(),
+            method: self.integrator,
             steps: if self.adaptive { Steps::Adaptive { tolerance } } else { Steps::Fixed { dt_s } },
             linear: match self.constraints {
                 ConstraintSolver::Direct => LinearSolver::Direct,
@@ -83,6 +87,11 @@ impl SolverPlan {
         }
     }
 
+    /// Is it of order 1 in forces that depend on the velocity?
+    pub(super) fn splits(&self) -> bool {
+        self.integrator.splits()
+    }
+
     /// Evaluations of the forces a step; none if it depends on the motion.
     pub(super) fn evals_per_step(&self) -> Option<u64> {
         match self.method {
@@ -95,56 +104,97 @@ impl SolverPlan {
             Method::Rk4Doubling => Some(4),
             Method::CashKarp | Method::Tsit5 => Some(6),
             Method::Dop853 => Some(12),
+            // These move no particles.
+            Method::FreeFlight
+            | Method::Rkmk4
+            | Method::CommutatorFree
+            | Method::Splitting2
+            | Method::Splitting4
+            | Method::Splitting6 => None,
         }
     }
 }
 
+/// The violation that is left where constraints or joints are solved for all at once.
+pub(super) fn violation(scene: &Scene) -> f64 {
+    let least = if scene.solver.scalar == Scalar::F32 { VIOLATION_F32 } else { VIOLATION };
+    scene.solver.violation.as_ref().map_or(least, |violation| *violation.get_ref())
+}
+
+/// The violation of joints that is left.
+pub(super) fn joint_violation(scene: &Scene) -> f64 {
+    let least = if scene.solver.scalar == Scalar::F32 { VIOLATION_F32 } else { VIOLATION_OF_JOINTS };
+    scene.solver.violation.as_ref().map_or(least, |violation| *violation.get_ref())
+}
+
+/// The relative tolerance of a scene.
+pub(super) fn rtol(scene: &Scene) -> f64 {
+    let default = if scene.solver.scalar == Scalar::F32 { RTOL_F32 } else { RTOL_F64 };
+    scene.solver.rtol.as_ref().map_or(default, |rtol| *rtol.get_ref())
+}
+
+/// The relative and the absolute tolerance of a scene.
+pub(super) fn tolerated(scene: &Scene) -> (f64, f64) {
+    let rtol = rtol(scene);
+    (rtol, scene.solver.atol.as_ref().map_or(rtol, |atol| *atol.get_ref()))
+}
+
+/// Whether a method of order 8 takes fewer evaluations for a tolerance than one of order 5.
+pub(super) fn high_order_pays(rtol: f64) -> bool {
+    rtol < HIGH_ORDER_BELOW
+}
+
 pub(super) fn choose(scene: &Scene, census: &Census) -> SolverPlan {
-    let given = |value: &Option<toml::Spanned<f64>>| value.as_ref().map(|value| *value.get_ref());
-    let single = scene.solver.scalar == Scalar::F32;
-    let rtol = given(&scene.solver.rtol).unwrap_or(if single { RTOL_F32 } else { RTOL_F64 });
-    let (method, why) = match &scene.solver.method {
-        Some(method) => (*method.get_ref(), "the scene names it".to_owned()),
-        None => method(scene, census, rtol),
+    let (rtol, atol) = tolerated(scene);
+    let named = scene.solver.method.as_ref().map(|method| *method.get_ref());
+    // One that moves bodies only counts for these.
+    let named = named.and_then(|method| Some((method, method.of_particles()?)));
+    let (method, integrator, why) = match named {
+        Some((method, integrator)) => (method, integrator, "the scene names it".to_owned()),
+        None => best(scene, census, rtol),
     };
     let constraints = scene.solver.constraints.as_ref().map(|by| *by.get_ref()).unwrap_or(match () {
         () if method == Method::Xpbd => ConstraintSolver::Sweeps,
         () if scene.net.is_empty() || census.constraints <= DIRECT_UP_TO => ConstraintSolver::Direct,
         () => ConstraintSolver::ConjugateGradients,
     });
-    let least = if single { VIOLATION_F32 } else { VIOLATION };
-    let swept = constraints == ConstraintSolver::Sweeps;
+    let swept = constraints == ConstraintSolver::Sweeps && scene.solver.violation.is_none();
     SolverPlan {
         method,
+        integrator,
         why,
         rtol,
-        atol: given(&scene.solver.atol).unwrap_or(rtol),
+        atol,
         constraints,
         stabilisation: scene.solver.stabilisation,
-        violation: given(&scene.solver.violation).unwrap_or(if swept { VIOLATION_BY_SWEEPS } else { least }),
+        violation: if swept { VIOLATION_BY_SWEEPS } else { violation(scene) },
         substeps: scene.solver.substeps.as_ref().map(|substeps| *substeps.get_ref()),
         adaptive: method.is_adaptive() && adapts(scene),
     }
 }
 
-fn method(scene: &Scene, census: &Census, rtol: f64) -> (Method, String) {
+fn best(scene: &Scene, census: &Census, rtol: f64) -> (Method, particle::Method, String) {
     let n = census.constraints;
     if adapts(scene) {
-        return match rtol < HIGH_ORDER_BELOW {
-            true => (Method::Dop853, "steps by error, and a tolerance at which a high order pays".to_owned()),
-            false => (Method::Tsit5, "steps by error, and a tolerance at which a low order pays".to_owned()),
+        let (method, integrator, order) = match high_order_pays(rtol) {
+            true => (Method::Dop853, particle::Method::Dop853, "high"),
+            false => (Method::Tsit5, particle::Method::Tsit5, "low"),
         };
+        return (method, integrator, format!("steps by error, and a tolerance at which a {order} order pays"));
     }
     // Chains and trees are factored in the time of a sweep, however long they are.
     let net = !scene.net.is_empty();
     if net && n >= SWEEPS_FROM {
-        return (Method::Xpbd, format!("{n} constraints: fast rather than accurate"));
+        return (Method::Xpbd, particle::Method::Xpbd, format!("{n} constraints: fast rather than accurate"));
     }
     if net || n > HIGH_ORDER_UP_TO {
-        return (Method::Verlet, format!("steps of `dt_s` and {n} constraints: RATTLE bears it when they snap taut"));
+        let why = format!("steps of `dt_s` and {n} constraints: RATTLE bears it when they snap taut");
+        return (Method::Verlet, particle::Method::Verlet, why);
     }
     if n > 0 || census.drags > 0 {
-        return (Method::Tsit5, "steps of `dt_s`, and constraints or drag: a high order".to_owned());
+        let why = "steps of `dt_s`, and constraints or drag: a high order".to_owned();
+        return (Method::Tsit5, particle::Method::Tsit5, why);
     }
-    (Method::Yoshida4, "steps of `dt_s`, and forces that keep the energy: so does it".to_owned())
+    let why = "steps of `dt_s`, and forces that keep the energy: so does it".to_owned();
+    (Method::Yoshida4, particle::Method::Yoshida4, why)
 }
