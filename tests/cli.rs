@@ -15,11 +15,13 @@ const TRAJECTORY: &str = "time_s,body,x_m,y_m,z_m,r_1,r_e23,r_e31,r_e12,vx_m_s,v
 const ENERGY: &str = "time_s,kinetic_j,potential_j,total_j,px,py,pz,l_e23,l_e31,l_e12";
 const EVENTS: &str = "time_s,kind,a,b,x_m,y_m,z_m,nx,ny,nz,separation_m,impulse_n_s";
 
-const SUMMARY: [&str; 19] = [
+const SUMMARY: [&str; 21] = [
     "angular_momentum_drift_rel",
     "bodies",
+    "body_work",
     "energy_drift_rel",
     "events",
+    "max_distortion",
     "max_penetration_m",
     "max_violation_m",
     "momentum_drift_rel",
@@ -73,7 +75,12 @@ fn shipped() -> Vec<String> {
 /// The scenes that take long in an unoptimised build are run for their first instants only.
 fn shortened(scene: &str) -> &'static [&'static str] {
     match Path::new(scene).file_stem().unwrap().to_str().unwrap() {
+        "body-chain" => &["--set", "duration_s=0.02"],
         "chain" => &["--set", "duration_s=0.2"],
+        "compound-pendulum" => &["--set", "duration_s=0.2"],
+        "four-bar" => &["--set", "duration_s=0.1"],
+        "heavy-top" => &["--set", "duration_s=0.3"],
+        "matrix-drift" => &["--set", "duration_s=4"],
         "particle-net" => &["--set", "duration_s=0.04"],
         _ => &[],
     }

@@ -19,10 +19,15 @@ fn every_shipped_scene_loads() {
         .collect();
     for name in [
         "bead-on-circle",
+        "body-chain",
         "chain",
+        "compound-pendulum",
         "cube-and-pyramid",
         "double-pendulum",
+        "four-bar",
         "free-collision",
+        "heavy-top",
+        "matrix-drift",
         "mesh-drop",
         "orbit",
         "particle-net",
