@@ -111,7 +111,7 @@ fn a_parallelogram_passes_its_change_points() {
     let case = four_bar([Vector::default(), crank, crank + ground, ground], [axis; 4]);
     let energy = case.energy(&case.bodies);
     for method in [Method::Yoshida4, Method::Dop853] {
-        let (end, mut motion) = moved(&case, GRAVITY, method, (2e-3, 1.5));
+        let (end, mut motion) = moved(&case, GRAVITY, method, (4e-3, 1.5));
         let (violation_m, off) = (motion.worst_violation(&end).unwrap(), (case.energy(&end) - energy).abs());
         println!(
             "{}: {violation_m:e} m, energy off by {off:e} of {energy} J, redirected {}",
