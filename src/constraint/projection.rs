@@ -19,6 +19,10 @@ use thiserror::Error;
 
 /// What has coordinates and constraints.
 pub trait Configuration<const D: usize> {
+    /// After how many more substitutions, at the present rate, a projection along frozen gradients leaves them and goes on
+    /// along the present ones. An integrator stays symmetric with the old ones, and others may be dearer than patience.
+    const PATIENCE_ALONG: f64 = 12.0;
+
     /// Fills values and gradients of the rows at the present coordinates.
     fn evaluate(&mut self, rows: &mut Rows<D>);
 
@@ -74,8 +78,9 @@ pub enum ProjectionError {
 }
 
 /// Newton's method doubles the digits and needs five iterations from anywhere near; the halving of the distance at a
-/// singular configuration, which quarters the violation, needs 25 for the 15 digits from a metre.
-const MAX_STEPS: u32 = 40;
+/// singular configuration, which quarters the violation, needs 25 for the 15 digits from a metre. As many again for what
+/// goes before along frozen gradients.
+const MAX_STEPS: u32 = 60;
 
 /// Halvings of a step before it is given up: a thousandth of a Newton step that brings nothing down never will.
 const MAX_HALVINGS: u32 = 10;
@@ -83,9 +88,6 @@ const MAX_HALVINGS: u32 = 10;
 /// A factor is renewed when, at the present rate, it would take more than this many substitutions to arrive; on nets and
 /// chains of any size a factorisation costs as much as two to six of them.
 const PATIENCE: f64 = 3.0;
-
-/// The same where the old directions are wanted for their own sake: an integrator stays symmetric with them.
-const PATIENCE_ALONG: f64 = 12.0;
 
 impl<const D: usize> Rows<D> {
     /// The worst row and its violation, m; `(0, 0.0)` when all hold.
@@ -157,7 +159,7 @@ impl<const D: usize> Multipliers<D> {
         self.along.iter_mut().for_each(|mu| *mu *= warm);
         displacement(&self.frozen, inverse_mass, &self.along, &mut self.total);
         configuration.displace(&self.total);
-        self.newton(rows, inverse_mass, configuration, tolerance_m, PATIENCE_ALONG)
+        self.newton(rows, inverse_mass, configuration, tolerance_m, C::PATIENCE_ALONG)
     }
 
     /// How far the last projection moved every block, m.

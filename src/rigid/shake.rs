@@ -35,6 +35,11 @@ struct Drift<'a, T, F> {
 }
 
 impl<T: Real, F: Fn(&mut Bodies<T>, &[Inertia<T>], f64)> Configuration<D> for Drift<'_, T, F> {
+    /// The derivative at the end of a free motion is that of its start turned by as much as the bodies turn, so that Newton's
+    /// method with the factor of the start gains half a digit a trial at a turn of 0.3 rad; 13 digits are asked for. Impulses
+    /// along later gradients cost energy, and halves of the drift as many trials.
+    const PATIENCE_ALONG: f64 = 36.0;
+
     fn evaluate(&mut self, rows: &mut Rows<D>) {
         self.bodies.assign(self.before);
         for (body_idx, (total, pose)) in self.total.iter().zip(self.start).enumerate() {
