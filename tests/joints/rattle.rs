@@ -1,10 +1,12 @@
 //! RATTLE on bodies: order, symmetry, energy.
 
-use crate::cases::{GRAVITY, after, distance, fly, medley, rattle_step, run, vector};
+use crate::cases::{Case, GRAVITY, after, distance, fly, inertia_tensor, medley, rattle_step, run, vector};
 use ga_physics::algebra::Real;
-use ga_physics::algebra::g3::Vector;
+use ga_physics::algebra::g3::{Rotor, Vector};
 use ga_physics::ode::{Composition, Dop853};
-use ga_physics::rigid::{Attachment, Bodies, Held, Inertia, Joint, free};
+use ga_physics::rigid::{
+    Attachment, Bodies, Forces, Form, Held, Inertia, Joint, Method, Motion, Setup, Solver, Steps, free,
+};
 
 #[test]
 fn compositions_have_their_orders() {
@@ -123,4 +125,32 @@ fn in_f32_the_joints_hold_to_the_rounding_of_the_arms() {
     println!("{violation_m:e} m, {redirected} redirected");
     // Eight eps of the longest arm, 0.5 m.
     assert!(violation_m < 6e-7 && redirected == 0, "{violation_m:e} {redirected}");
+}
+
+/// A double pendulum that whips: bodies turn by 0.2 rad in a step of 0.01 s, and the impulses are still found along the
+/// gradients at its start.
+#[test]
+fn long_steps_stay_along_the_gradients_at_their_start() {
+    let inertia = Inertia::new(1.0, inertia_tensor([0.01, 0.02, 0.025], Rotor::default())).unwrap();
+    let mut case = Case::default();
+    let a = case.body([0.5, 0.0, 0.0], Rotor::default(), inertia);
+    let b = case.body([1.5, 0.0, 0.0], Rotor::default(), inertia);
+    case.hinge(a, None, [0.0; 3], [0.0, 1.0, 0.0]);
+    case.hinge(b, Some(a), [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    let forces = Forces { gravity: vector([0.0, 0.0, -GRAVITY]), forces: vec![] };
+    let setup = Setup { inertias: case.inertias.clone(), forces, joints: case.joints.clone() };
+    for (method, allowed) in [(Method::Verlet, 1.0), (Method::Yoshida4, 1.5), (Method::Yoshida6, 0.1)] {
+        let solver = Solver { form: Form::Rotor, method, steps: Steps::Fixed { dt_s: 0.01 }, violation: 1e-12 };
+        let mut bodies = case.bodies.clone();
+        let mut motion = Motion::new(setup.clone(), &bodies, &solver).unwrap();
+        let (mut fastest, mut off) = (0.0_f64, 0.0_f64);
+        for step in 0..300 {
+            motion.advance(&mut bodies, 0.01 * f64::from(step), 0.01).unwrap();
+            fastest = fastest.max(bodies.omega_world(b, &inertia).norm_sq().sqrt());
+            off = off.max((case.energy(&bodies) - case.energy(&case.bodies)).abs());
+        }
+        println!("{}: {fastest} rad/s, energy off by {off:e} J, {} redirected", method.name(), motion.redirected());
+        assert!(fastest > 12.0 && motion.redirected() == 0, "{}: {fastest} {}", method.name(), motion.redirected());
+        assert!(off < allowed, "{}: {off:e} J", method.name());
+    }
 }
