@@ -35,7 +35,7 @@ pub(super) struct Frame {
     pub(super) off_separatrix: f64,
     /// d tau / dt, rad/s.
     pub(super) lambda_rad_s: f64,
-    /// The phase's rate at `sn = 0`, rad/s: see `series`.
+    /// The rate of the phase about z in the shortest-arc frame, `psi' = (omega.u + omega.z) / (1 + u.z)`, at `sn = 0`, rad/s.
     pub(super) phase_rad_s: f64,
 }
 
@@ -85,7 +85,7 @@ impl Frame {
             (0.0, 1.0)
         };
         let rate = top.rate_rad_s;
-        // (omega.u + omega.z) / (1 + uz) at uy = 0, as sums of what is positive.
+        // At uy = 0, as sums of what is positive.
         let phase = if about_largest { top.b[2] + w / (1.0 + amplitudes[2]) } else { top.b[2] + a2 * amplitudes[2] };
         Self {
             from_principal: turned * exchanged,

@@ -50,8 +50,9 @@ impl Hyperbolic {
         let ([ax, ay, az], [_, b, c]) = (frame.a, frame.amplitudes);
         let (sin_2y, cos_2y) = landen.circular((ax / ay).sqrt(), (az / ay).sqrt());
         let jump = Real::atan2(sin_2y, cos_2y);
-        let (sin_y, cos_y) = Real::sin_cos(0.5 * jump);
-        let one = (cos_y, -sin_y);
+        // Y is at most pi/4.
+        let cos_y = (0.5 + 0.5 * cos_2y).sqrt();
+        let one = (cos_y, -0.5 * sin_2y / cos_y);
         let two = (cos_2y, -sin_2y);
         let three = times(one, two);
         let five = times(three, two);

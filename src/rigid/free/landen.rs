@@ -13,6 +13,9 @@
 /// `1/sqrt(k)`, from sinh by the part k.
 const LAST_MODULUS: f64 = 1e-16;
 
+/// A step to a modulus below moves sine and cosine by less than eps.
+const CIRCULAR_MODULUS: f64 = 0.25 * f64::EPSILON;
+
 /// From a modulus of 0.99 six steps lead below [`LAST_MODULUS`].
 const MOST_STEPS: usize = 6;
 
@@ -33,8 +36,9 @@ impl Landen {
         let mut chain = Self { moduli: [0.0; MOST_STEPS], steps: 0, quarter: 1.0, first: (0.0, 1.0) };
         let (mut k, mut k_complement) = (k, k_complement);
         while chain.steps == 0 || (k > LAST_MODULUS && chain.steps < MOST_STEPS) {
-            let root = k / (1.0 + k_complement);
-            (k, k_complement) = (root * root, 2.0 * k_complement.sqrt() / (1.0 + k_complement));
+            let scale = 1.0 / (1.0 + k_complement);
+            let root = k * scale;
+            (k, k_complement) = (root * root, 2.0 * k_complement.sqrt() * scale);
             if chain.steps == 0 {
                 chain.first = (k, k_complement);
             }
@@ -48,7 +52,7 @@ impl Landen {
     /// Sine and cosine of `pi u / 2K`, from `sn(u)` and `cn(u)`.
     pub(super) fn circular(&self, sn: f64, cn: f64) -> (f64, f64) {
         let (mut s, mut c) = (sn, cn);
-        for k in &self.moduli[..self.steps] {
+        for k in self.moduli[..self.steps].iter().filter(|k| **k > CIRCULAR_MODULUS) {
             let (sum, difference) = (1.0 + k, 1.0 - k);
             s = 2.0 * s / (sum + (difference * difference + 4.0 * k * c * c).sqrt());
             c *= (1.0 + k * s * s) / (1.0 - k * k * s * s).sqrt();

@@ -78,7 +78,7 @@ impl FreeMotion {
     #[must_use]
     pub fn new<T: Real>(inertia: &Inertia<T>, rotor: Rotor<T>, angular_momentum: Bivector<T>) -> Self {
         let axes = inertia.principal.axes;
-        let rotor = unit_again(rotor.map(Real::to_f64));
+        let rotor = rotor.map(Real::to_f64);
         match Top::new(inertia.principal.moments, rotor * axes, angular_momentum.map(Real::to_f64)) {
             Some(top) => Self::of(&top, axes),
             None => Self { case: Case::Still, left: rotor, series: Series::Still, right: Rotor::default() },
@@ -153,7 +153,7 @@ impl FreeMotion {
 pub fn turn<T: Real>(inertia: &Inertia<T>, rotor: Rotor<T>, angular_momentum: Bivector<T>, h_s: f64) -> Rotor<T> {
     let axes = inertia.principal.axes;
     let start = rotor.map(Real::to_f64);
-    let top = Top::new(inertia.principal.moments, unit_again(start) * axes, angular_momentum.map(Real::to_f64));
+    let top = Top::new(inertia.principal.moments, start * axes, angular_momentum.map(Real::to_f64));
     let Some(top) = top else { return rotor };
     let t = top.rate_rad_s * h_s;
     let [u1, _, u3] = top.u;
@@ -163,7 +163,8 @@ pub fn turn<T: Real>(inertia: &Inertia<T>, rotor: Rotor<T>, angular_momentum: Bi
     }
     let change = short::turn_less_one(&top, t);
     // In the body frame, and added: what is small is rounded with what it is added to, once.
-    let change = Even::from(axes) * change * Even::from(axes.rev());
+    let turned = axes.apply(Bivector::new(change.e23, change.e31, change.e12));
+    let change = Even::new(change.s, turned.e23, turned.e31, turned.e12);
     let start = Even::from(start);
     let change = start * change + start * (0.5 * (1.0 - start.norm_sq()));
     let end = start + change;

@@ -16,8 +16,8 @@ use crate::algebra::g3::{Bivector, Even, Rotor};
 /// the attitude is that of a phase by its own rounding.
 const EQUAL_MOMENTS: f64 = 4.0 * f64::EPSILON;
 
-/// Sums of squares in here lose no digits to underflow, and do not overflow in a product of two.
-const PLAIN_SQUARES: core::ops::Range<f64> = 1e-150..1e150;
+/// Lengths whose squares, and the squares of components that matter beside them, are normal numbers.
+const PLAIN_LENGTHS: core::ops::Range<f64> = 1e-130..1e150;
 
 /// A turning body, and which way its momentum points.
 #[derive(Clone, Copy, Debug)]
@@ -30,13 +30,14 @@ pub(super) struct Top {
     pub(super) rate_rad_s: f64,
     /// The direction of the momentum in the principal frame.
     pub(super) u: [f64; 3],
-    /// Principal frame to world.
+    /// Principal frame to world, as given.
     pub(super) rotor: Rotor<f64>,
 }
 
 impl Top {
     /// From the principal moments in ascending order, the rotor from the principal frame to the world, and the momentum
     /// in the world. `None` if it stands still: no momentum, or a body that nothing turns.
+    #[inline]
     pub(super) fn new(moments: [f64; 3], rotor: Rotor<f64>, momentum: Bivector<f64>) -> Option<Self> {
         let [i1, i2, i3] = moments;
         let (length, direction) = length_and_direction(momentum)?;
@@ -50,9 +51,11 @@ impl Top {
             if part <= EQUAL_MOMENTS { 0.0 } else { part }
         };
         let a = [b2 * difference(i3, i2), difference(i3, i1), difference(i2, i1)];
-        let u = rotor.rev().apply(direction);
-        // The rotor may be off its unit length by rounding.
-        let scale = 1.0 / (u.e23 * u.e23 + u.e31 * u.e31 + u.e12 * u.e12).sqrt();
+        // The rotor may be off unit length, by the rounding of f32 at most: its own sandwich takes the length for granted,
+        // and `2 - R ~R` is as good as a quotient.
+        let rotor_as_given = Even::from(rotor);
+        let u = rotor_as_given.rev() * direction * rotor_as_given;
+        let scale = 2.0 - rotor_as_given.norm_sq();
         Some(Self { b: [1.0, b2, b3], a, rate_rad_s, u: [u.e23 * scale, u.e31 * scale, u.e12 * scale], rotor })
     }
 
@@ -87,17 +90,21 @@ pub(super) fn even(w: f64, [x, y, z]: [f64; 3]) -> Even<f64> {
     Even::new(w, -x, -y, -z)
 }
 
-/// The length, and the bivector of about unit length along it; `None` for none.
+/// The length, and the unit bivector along it; `None` for none.
+#[inline]
 fn length_and_direction(momentum: Bivector<f64>) -> Option<(f64, Bivector<f64>)> {
-    let square = |b: Bivector<f64>| b.e23 * b.e23 + b.e31 * b.e31 + b.e12 * b.e12;
-    let plain = square(momentum);
-    if PLAIN_SQUARES.contains(&plain) {
-        return Some((plain.sqrt(), momentum));
+    let length = |b: Bivector<f64>| (b.e23 * b.e23 + b.e31 * b.e31 + b.e12 * b.e12).sqrt();
+    let scaled = |b: Bivector<f64>, scale: f64| Bivector::new(b.e23 * scale, b.e31 * scale, b.e12 * scale);
+    let plain = length(momentum);
+    if PLAIN_LENGTHS.contains(&plain) {
+        return Some((plain, scaled(momentum, 1.0 / plain)));
     }
     let largest = momentum.e23.abs().max(momentum.e31.abs()).max(momentum.e12.abs());
     if !(largest > 0.0 && largest.is_finite()) {
         return None;
     }
+    // By quotients: the reciprocal of a subnormal number may overflow.
     let momentum = Bivector::new(momentum.e23 / largest, momentum.e31 / largest, momentum.e12 / largest);
-    Some((largest * square(momentum).sqrt(), momentum))
+    let length = length(momentum);
+    Some((largest * length, scaled(momentum, 1.0 / length)))
 }

@@ -4,10 +4,12 @@
 //! Klein and Sommerfeld 1897, VI; in this form derived from `1 + C dn = 2 |alpha|²`)
 //!
 //! ```text
-//! alpha = n theta4(v - i b | q²) e^(i mu t)     beta = -n r theta1(v - i b | q²) e^(i mu t) e^..     v = pi tau / 2K
+//! alpha = n theta4(v - i b | q²) e^(i mu t)     beta = -n r theta1(v - i b | q²) e^(i mu t)     v = s pi tau / 2K
 //! ```
 //!
-//! where n makes it unit, and `b = pi y / 2K` with `sn(y, k') = sqrt(ax/ay)`. It is smooth wherever `uz > -1`. In
+//! where n makes it unit, r is real, and `b = pi y / 2K` with `sn(y, k') = sqrt(ax/ay)`: the zeros of `1 + C dn` and
+//! `1 - C dn` are those of theta4 and theta1. It is smooth wherever `uz > -1`, so the phase of alpha, half that of the
+//! shortest-arc frame, is well-conditioned, also where the momentum passes the axis. mu follows from its rate at v = 0. In
 //! `z = e^(iv)`, `E = e^(-2b)` and `G = q / E`, none above 1,
 //!
 //! ```text
