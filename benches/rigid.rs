@@ -5,8 +5,9 @@
 //! ```
 //!
 //! `free motion` is a step of a body that nothing turns, of moments 1, 2, 3, spun about its middle axis:
-//! RK4 on a quaternion by nalgebra, with renormalisation, is what the others are held against. Every step starts from the
-//! end of the one before, but for `at`, which has no steps and is asked for the attitude at their ends.
+//! RK4 on a quaternion by nalgebra, with renormalisation, is what the others are held against: with L in the world, and
+//! with Euler's equations for omega, which is cheaper. Every step starts from the end of the one before, but for `at`,
+//! which has no steps and is asked for the attitude at their ends.
 //!
 //! `formulations` steps such bodies, which also fly, by RK4 with `rotor::advance` and its siblings, and by the methods on
 //! groups: one body, and a hundred that lie one after the other in the arrays.
@@ -49,6 +50,26 @@ fn rk4(q: UnitQuaternion<f64>, momentum: Vector3<f64>, inv: Vector3<f64>, h: f64
     UnitQuaternion::new_normalize(start + (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0))
 }
 
+/// The same with Euler's equations for omega in the body.
+fn rk4_euler(
+    q: Quaternion<f64>,
+    omega: Vector3<f64>,
+    moments: Vector3<f64>,
+    h: f64,
+) -> (Quaternion<f64>, Vector3<f64>) {
+    let inv = moments.map(f64::recip);
+    let rate = |q: Quaternion<f64>, omega: Vector3<f64>| {
+        let torque = moments.component_mul(&omega).cross(&omega);
+        (q * Quaternion::from_imag(omega) * 0.5, torque.component_mul(&inv))
+    };
+    let (q1, w1) = rate(q, omega);
+    let (q2, w2) = rate(q + q1 * (0.5 * h), omega + w1 * (0.5 * h));
+    let (q3, w3) = rate(q + q2 * (0.5 * h), omega + w2 * (0.5 * h));
+    let (q4, w4) = rate(q + q3 * h, omega + w3 * h);
+    let q = (q + (q1 + (q2 + q3) * 2.0 + q4) * (h / 6.0)).normalize();
+    (q, omega + (w1 + (w2 + w3) * 2.0 + w4) * (h / 6.0))
+}
+
 fn free_motion(c: &mut Criterion) {
     let mut group = c.benchmark_group("free motion");
     let (inertia, momentum) = body();
@@ -58,6 +79,13 @@ fn free_motion(c: &mut Criterion) {
     group.bench_function("rk4 by nalgebra", |b| {
         b.iter(|| {
             q = rk4(black_box(q), world, inv, DT_S);
+            q
+        });
+    });
+    let (mut q, mut omega) = (Quaternion::identity(), Vector3::from(OMEGA_BODY));
+    group.bench_function("rk4 by nalgebra, with omega", |b| {
+        b.iter(|| {
+            (q, omega) = rk4_euler(black_box(q), omega, black_box(Vector3::from(MOMENTS)), DT_S);
             q
         });
     });
