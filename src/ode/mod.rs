@@ -9,6 +9,7 @@
 //! | [`CashKarp`] | 5 | 6 | 4 | 3 | comparison; errors of 1e-3 |
 //! | [`Tsit5`] | 5 | 6 | 4 | 4 | errors down to 1e-5 |
 //! | [`Dop853`] | 8 | 12 | 5, 3 | 7 (3 evaluations) | smaller errors |
+//! | [`lie::Rkmk4`], [`lie::CommutatorFree4`] | 4 | 4 | 3 | 4 | states on a Lie group: rotors, motors |
 //! | [`Composition::Verlet`] | 2 | 1 | | 2 (1) | long conservative runs |
 //! | [`Composition::Yoshida4`] | 4 | 3 | | 4 (3) | the same |
 //! | [`Composition::Yoshida6`] | 6 | 7 | | 6 (7) | the same |

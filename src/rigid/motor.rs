@@ -31,7 +31,7 @@
 //! and flies makes an error of order `|v| h (|Omega| h)^4` in the position, where the other formulations, which integrate
 //! xdot by itself, are exact.
 
-use super::rotor::Worst;
+use super::rotor::{Worst, turned};
 use super::sums::{add_scaled, assign};
 use super::{Bodies, Formulation, Inertia, MotionError, OrientationLost, System, Wrenches};
 use crate::algebra::Real;
@@ -75,7 +75,10 @@ pub fn rhs<T: Real>(state: &State<T>, inertias: &[Inertia<T>], wrenches: &Wrench
     let (rdot, mdot) = (&mut rates.even[..n], &mut rates.odd[..n]);
     for (i, inertia) in inertias.iter().enumerate() {
         let (r, m) = parts(motor[i]);
-        let omega_body = inertia.velocity_of(r.rev().apply(angular_momentum[i])) * minus_half;
+        let (l, norm_sq) = (angular_momentum[i], Even::from(r).norm_sq());
+        // ~R L R, of a stage that is no unit motor: see the rotor form. Its square norm is divided out with the half.
+        let momentum_body = r.rev().apply(l) + l * (norm_sq - T::one());
+        let omega_body = inertia.velocity_of(momentum_body) * (minus_half / norm_sq);
         let velocity = momentum[i] * (inertia.inv_mass * minus_half);
         rdot[i] = r * omega_body;
         mdot[i] = m * omega_body + velocity * r;
@@ -96,17 +99,11 @@ pub(super) fn joined<T: Real>(r: Rotor<T>, m: Odd<T>) -> Motor<T> {
     Motor::from([r.s, r.e23, r.e31, r.e12, m.e1, m.e2, m.e3, m.e123])
 }
 
-/// `I^-1 (~R L R)`, rad/s.
-#[inline]
-fn omega_body<T: Real>(state: &State<T>, body_idx: usize, inertia: &Inertia<T>) -> Bivector<T> {
-    inertia.velocity_of(state.motor[body_idx].rotor().rev().apply(state.angular_momentum[body_idx]))
-}
-
-/// The translation of a motor near the unit ones, `-2 m ~r`.
+/// The translation of a motor, whatever its norm, `-2 m ~r / (r ~r)`.
 #[inline]
 fn translation<T: Real>(r: Rotor<T>, m: Odd<T>) -> Vector<T> {
     let t = m * r.rev();
-    Vector::new(t.e1, t.e2, t.e3) * T::ratio(-2, 1)
+    Vector::new(t.e1, t.e2, t.e3) * (T::ratio(-2, 1) / Even::from(r).norm_sq())
 }
 
 /// Brings every motor back to unit norm, both parts of `M ~M = 1`, and its anchor to the centre of mass.
@@ -117,10 +114,9 @@ pub fn renormalise<T: Real>(state: &mut State<T>) -> Result<(), OrientationLost>
     for (body_idx, motor) in state.motor.iter_mut().enumerate() {
         let lost = OrientationLost { body_idx, reason: "its motor has no norm or is not finite" };
         let (r, m) = parts(*motor);
-        let norm_sq = Even::from(r).norm_sq();
         let rotor = r.renormalise().map_err(|_| lost)?;
         // The vector part of -2 m ~r / |r|² is the nearest translation; its trivector part is the other half of M ~M.
-        let moved = translation(r, m) / norm_sq;
+        let moved = translation(r, m);
         if !(moved.e1.is_finite() && moved.e2.is_finite() && moved.e3.is_finite()) {
             return Err(lost);
         }
@@ -194,7 +190,7 @@ impl<T: Real> Formulation<T> for State<T> {
 
     #[inline]
     fn to_world(&self, body_idx: usize, x_body: Vector<T>) -> Vector<T> {
-        self.motor[body_idx].rotor().apply(x_body)
+        turned(self.motor[body_idx].rotor(), x_body)
     }
 
     #[inline]
@@ -204,7 +200,8 @@ impl<T: Real> Formulation<T> for State<T> {
 
     #[inline]
     fn omega_world(&self, body_idx: usize, inertia: &Inertia<T>) -> Bivector<T> {
-        self.motor[body_idx].rotor().apply(omega_body(self, body_idx, inertia))
+        let rotor = self.motor[body_idx].rotor();
+        turned(rotor, inertia.velocity_of(turned(rotor.rev(), self.angular_momentum[body_idx])))
     }
 
     fn rhs(&self, inertias: &[Inertia<T>], wrenches: &Wrenches<T>, rates: &mut Rates<T>) {

@@ -17,7 +17,7 @@ use crate::algebra::g3::{Bivector, Rotor, Vector};
 use crate::ode::{self, Controlled, Rk4, RungeKutta, Tolerance};
 use alloc::vec;
 use alloc::vec::Vec;
-use nalgebra::{Matrix3, Point3, Quaternion, Unit, Vector3};
+use nalgebra::{Matrix3, Point3, Quaternion, RealField, Unit, Vector3};
 
 /// The states of all bodies. Every array has one entry a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,14 +47,16 @@ pub struct Rates<T: Real> {
 
 /// The equations of motion, for every body.
 pub fn rhs<T: Real>(state: &State<T>, inertias: &[Inertia<T>], wrenches: &Wrenches<T>, rates: &mut Rates<T>) {
-    let (half, n) = (T::ratio(1, 2).to_field(), inertias.len());
+    let (half, one, n) = (T::ratio(1, 2).to_field(), T::one().to_field(), inertias.len());
     let (orientation, momentum) = (&state.orientation[..n], &state.momentum[..n]);
     let angular_momentum = &state.angular_momentum[..n];
     let (xdot, qdot) = (&mut rates.position[..n], &mut rates.orientation[..n]);
     for (i, inertia) in inertias.iter().enumerate() {
         let q = orientation[i];
-        let omega_body =
-            inverse(inertia) * Unit::new_unchecked(q).inverse_transform_vector(&angular_momentum[i]) * half;
+        let (l, norm_sq) = (angular_momentum[i], q.norm_squared());
+        // q* L q, of a stage that is no unit quaternion: see `turned`. Its square norm is divided out with the half.
+        let momentum_body = Unit::new_unchecked(q).inverse_transform_vector(&l) + l * (norm_sq - one);
+        let omega_body = inverse(inertia) * momentum_body * (half / norm_sq);
         xdot[i] = momentum[i] * inertia.inv_mass.to_field();
         // The product with a quaternion that has no real part.
         let imaginary = omega_body * q.w + q.imag().cross(&omega_body);
@@ -64,11 +66,11 @@ pub fn rhs<T: Real>(state: &State<T>, inertias: &[Inertia<T>], wrenches: &Wrench
     fill(&mut rates.angular_momentum, wrenches.torque.iter().map(|torque| axial(*torque)));
 }
 
-/// `I^-1 (q* L q)`, rad/s.
+/// `q x q* / |q|²`: the rotation that a quaternion stands for, whatever its norm. nalgebra's formula for unit quaternions gives
+/// `q x q* - (|q|² - 1) x`, with which the stages of a Runge-Kutta step err: see the rotor form.
 #[inline]
-fn omega_body<T: Real>(state: &State<T>, body_idx: usize, inertia: &Inertia<T>) -> Vector3<T::Field> {
-    let orientation = Unit::new_unchecked(state.orientation[body_idx]);
-    inverse(inertia) * orientation.inverse_transform_vector(&state.angular_momentum[body_idx])
+fn turned<F: RealField + Copy>(q: Quaternion<F>, x: Vector3<F>) -> Vector3<F> {
+    x + (Unit::new_unchecked(q) * x - x) / q.norm_squared()
 }
 
 /// Brings every quaternion back to unit norm.
@@ -177,8 +179,7 @@ impl<T: Real> Formulation<T> for State<T> {
 
     #[inline]
     fn to_world(&self, body_idx: usize, x_body: Vector<T>) -> Vector<T> {
-        let orientation = Unit::new_unchecked(self.orientation[body_idx]);
-        numbers::<T>(&(orientation * vector(x_body))).into()
+        numbers::<T>(&turned(self.orientation[body_idx], vector(x_body))).into()
     }
 
     #[inline]
@@ -188,8 +189,9 @@ impl<T: Real> Formulation<T> for State<T> {
 
     #[inline]
     fn omega_world(&self, body_idx: usize, inertia: &Inertia<T>) -> Bivector<T> {
-        let orientation = Unit::new_unchecked(self.orientation[body_idx]);
-        numbers::<T>(&(orientation * omega_body(self, body_idx, inertia))).into()
+        let q = self.orientation[body_idx];
+        let omega_body = inverse(inertia) * turned(q.conjugate(), self.angular_momentum[body_idx]);
+        numbers::<T>(&turned(q, omega_body)).into()
     }
 
     fn rhs(&self, inertias: &[Inertia<T>], wrenches: &Wrenches<T>, rates: &mut Rates<T>) {

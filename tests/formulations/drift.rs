@@ -118,6 +118,44 @@ fn a_motor_is_brought_back_in_both_parts_and_its_anchor_follows() {
     assert_eq!(state.position(0), state.anchor[0]);
 }
 
+/// Numbers of the orientation's rate, of a turned and of a measured vector, in a state and in one of another norm.
+fn of_any_norm<F: Formulation<f64>>(scale: impl Fn(&mut F), rate: impl Fn(&F::Rate) -> Vec<f64>) {
+    const NORM: f64 = 1.25;
+    let case: Case<f64> = spinning(1.0, [1.0, 2.0, 3.0], [0.4, 0.5, 0.6]);
+    let inertia = &case.setup.inertias[0];
+    let unit = F::from_bodies(&case.bodies);
+    let mut other = unit.clone();
+    scale(&mut other);
+    let seen = |state: &F| {
+        let mut rates = state.zero_rates();
+        state.rhs(&case.setup.inertias, &ga_physics::rigid::Wrenches::zeros(1), &mut rates);
+        let x = state.to_world(0, ga_physics::algebra::g3::Vector::new(1.0, 2.0, 3.0));
+        let omega = state.omega_world(0, inertia);
+        (rate(&rates), [<[f64; 3]>::from(x), omega.into()].concat())
+    };
+    let ((rate, turned), (other_rate, other_turned)) = (seen(&unit), seen(&other));
+    let same = |a: &[f64], b: &[f64], factor: f64| a.iter().zip(b).all(|(a, b)| (a * factor - b).abs() < 1e-14);
+    assert!(same(&rate, &other_rate, NORM), "{rate:?}, {other_rate:?}");
+    assert!(same(&turned, &other_turned, 1.0), "{turned:?}, {other_turned:?}");
+}
+
+#[test]
+fn an_orientation_of_any_norm_stands_for_one_rotation() {
+    // So the stages of a step, which are not unit, see the right angular velocity and the right places.
+    of_any_norm::<Bodies<f64>>(
+        |state| state.rotor[0] = state.rotor[0].map(|x| x * 1.25),
+        |rates| <[f64; 4]>::from(rates.rotor[0]).to_vec(),
+    );
+    of_any_norm::<quaternion::State<f64>>(
+        |state| state.orientation[0] *= 1.25,
+        |rates| rates.orientation[0].coords.iter().copied().collect(),
+    );
+    of_any_norm::<motor::State<f64>>(
+        |state| state.motor[0] = state.motor[0].map(|x| x * 1.25),
+        |rates| [<[f64; 4]>::from(rates.even[0]), rates.odd[0].into()].concat(),
+    );
+}
+
 #[test]
 fn a_lost_orientation_is_named_with_its_body() {
     fn lost<F: Formulation<f64>>(spoil: impl Fn(&mut F)) -> OrientationLost {
