@@ -71,7 +71,7 @@ enum Command {
         json: bool,
     },
     /// Measure: `kernels` compares generated types with the dynamic multivector and with vector code, `solvers` what an
-    /// error costs by which integrator.
+    /// error costs by which integrator, `formulations` rigid bodies as matrices, quaternions, rotors and motors.
     Study {
         /// Which studies [default: all].
         names: Vec<Study>,
@@ -88,6 +88,7 @@ enum Command {
 enum Study {
     Kernels,
     Solvers,
+    Formulations,
 }
 
 /// Why a command ends with a code other than 0.
@@ -188,6 +189,7 @@ fn study(names: &[Study], quick: bool, out: &Path) -> Result<(), Failure> {
         let text = match study {
             Study::Kernels => study::kernels::run(quick, out, &mut progress).map(|report| report.text()),
             Study::Solvers => study::solvers::run(quick, out, &mut progress).map(|report| report.text()),
+            Study::Formulations => study::formulations::run(quick, out, &mut progress).map(|report| report.text()),
         };
         print(&text.map_err(|error| Failure::run(error.to_string()))?)?;
     }

@@ -2,10 +2,11 @@
 //!
 //! [`kernels`] sets the generated types against the dynamic multivector and the traditional formulas, in time and
 //! bytes. [`solvers`] sets the integrators, the stabilisations and the solvers of constraint forces against closed forms,
-//! in work and time. A figure is published with the machine, the command, the repeats and the spread, and beside every
+//! in work and time; [`formulations`] sets rotors and motors against quaternions and matrices. A figure is published with the machine, the command, the repeats and the spread, and beside every
 //! time stands the disagreement of the results: a fast wrong kernel, or solver, would be seen.
 
 mod chart;
+pub mod formulations;
 pub mod kernels;
 mod machine;
 pub mod solvers;
@@ -45,6 +46,15 @@ pub enum StudyError {
     /// What the others are held against cannot be computed.
     #[error("no reference to hold solvers against: {0}")]
     Reference(#[from] OdeError<MotionError>),
+    /// A solver of bodies cannot be used.
+    #[error(transparent)]
+    Bodies(#[from] crate::rigid::SolverError),
+    /// A run of bodies that has to arrive does not.
+    #[error("a body of the study does not arrive: {0}")]
+    Motion(#[from] OdeError<crate::rigid::MotionError>),
+    /// A body of the study is none.
+    #[error(transparent)]
+    Inertia(#[from] crate::rigid::InertiaError),
     /// A file or its directory cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),

@@ -1,6 +1,7 @@
 //! Mechanics cases beside rapier and two ODE crates, in one run on one thread: see README.md.
 
 mod cases;
+mod free_body;
 mod ga_ways;
 mod kepler;
 mod measure;
@@ -44,6 +45,7 @@ fn main() -> ExitCode {
 }
 
 fn run(out: &mut impl Write, effort: &Effort) -> io::Result<()> {
+    free_body::free_body(out, effort.small)?;
     orbits(out, effort)?;
     report::mechanics_head(out)?;
     let mut run = |case: Case, rounds: usize, ours: Vec<Way>| {

@@ -110,7 +110,7 @@ pub fn work_precision(out: &mut impl Write, orbit: Orbit, solvers: &[Solver], er
 }
 
 /// `median [low, high]`, the ends of the middle half.
-fn spread(value: Spread, unit: f64, digits: usize) -> String {
+pub fn spread(value: Spread, unit: f64, digits: usize) -> String {
     let Spread { low, median, high } = value;
     format!("{:.digits$} [{:.digits$}, {:.digits$}]", median * unit, low * unit, high * unit)
 }
