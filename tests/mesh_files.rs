@@ -8,7 +8,7 @@ mod shapes;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use ga_physics::cli::mesh::run;
+use ga_physics::cli::mesh::{Options, run};
 use ga_physics::geometry::mass_properties::{mass_properties, principal_axes};
 use ga_physics::geometry::mesh::Mesh;
 use ga_physics::geometry::mesh_checks::check;
@@ -207,14 +207,14 @@ fn missing_files_and_other_formats_say_so() {
 
 fn run_on(path: &Path, json: bool) -> (u8, String) {
     let mut out = Vec::new();
-    let code = run(path, json, &mut out).unwrap();
+    let code = run(&Options { file: path.into(), json, save: false }, &mut out).unwrap();
     (code, String::from_utf8(out).unwrap())
 }
 
 #[test]
 fn the_json_has_exactly_the_promised_fields() {
     let fields = "triangles closed oriented manifold convex usable_as_body volume_m3 centre_m inertia_unit_density \
-                  sphere_centre_m sphere_radius_m messages";
+                  principal_moments_unit_density principal_axes sphere_centre_m sphere_radius_m messages";
     let directory = tempfile::tempdir().unwrap();
     let tetrahedron = format!("{OBJ_CORNERS}f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
     let good = file(directory.path(), "good.obj", &tetrahedron);
@@ -268,7 +268,8 @@ fn the_text_reads_and_the_exit_code_is_right() {
     let (_, json) = run_on(&path, true);
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert!(json["sphere_radius_m"].as_f64().unwrap() < 0.9, "{json}");
-    assert!(run(Path::new("no/such/mesh.obj"), false, &mut Vec::new()).is_err());
+    let missing = Options { file: "no/such/mesh.obj".into(), json: false, save: true };
+    assert!(run(&missing, &mut Vec::new()).is_err());
 }
 
 #[test]

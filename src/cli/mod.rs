@@ -62,13 +62,16 @@ enum Command {
     },
     /// Print the JSON schema of scenes, for editors.
     Schema,
-    /// Examine a mesh (OBJ, STL): is it a solid, its volume, centre, inertia, enclosing sphere.
+    /// Examine a mesh (OBJ, STL): is it a solid, its volume, centre, inertia, principal axes, enclosing sphere.
     Mesh {
         /// The mesh file.
         file: PathBuf,
         /// As JSON.
         #[arg(long)]
         json: bool,
+        /// Keep the mass properties in FILE.mass.toml, which scenes use while the mesh is unchanged.
+        #[arg(long)]
+        save: bool,
     },
     /// Measure: `kernels` compares generated types with the dynamic multivector and with vector code, `solvers` what an
     /// error costs by which integrator, `formulations` rigid bodies as matrices, quaternions, rotors and motors.
@@ -138,9 +141,10 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
         Command::Plan { scene, sets, json } => print_plan(&scene, &sets, json).map(|()| 0),
         Command::Check { scene, sets } => check(&scene, &sets).map(|()| 0),
         Command::Schema => print(&scene::schema()).map(|()| 0),
-        Command::Mesh { file, json } => {
+        Command::Mesh { file, json, save } => {
             let mut text = Vec::new();
-            let code = mesh::run(&file, json, &mut text).map_err(|error| Failure::input(format!("{error:#}")))?;
+            let code = mesh::run(&mesh::Options { file, json, save }, &mut text)
+                .map_err(|error| Failure::input(format!("{error:#}")))?;
             print(&String::from_utf8_lossy(&text))?;
             Ok(code)
         }

@@ -9,6 +9,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::geometry::mesh::{Mesh, MeshError};
+use crate::io::mass_file::Fingerprint;
 use crate::io::{obj, stl};
 
 /// A mesh as read from a file.
@@ -21,6 +22,8 @@ pub struct MeshFile {
     pub unused_vertices: usize,
     /// Vertices joined because their coordinates are equal (in an STL, where each facet lists its own, most of them).
     pub welded_vertices: usize,
+    /// The bytes of the file.
+    pub fingerprint: Fingerprint,
 }
 
 /// Why a file gave no mesh.
@@ -95,5 +98,6 @@ pub fn read_mesh(path: &Path) -> Result<MeshFile, MeshFileError> {
     })?;
     let mesh = parsed.mesh.welded();
     let welded_vertices = parsed.mesh.vertices.len() - mesh.vertices.len();
-    Ok(MeshFile { mesh, unused_vertices: parsed.unused_vertices, welded_vertices })
+    let fingerprint = Fingerprint::of(&bytes);
+    Ok(MeshFile { mesh, unused_vertices: parsed.unused_vertices, welded_vertices, fingerprint })
 }

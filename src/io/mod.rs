@@ -2,6 +2,7 @@
 
 pub mod files;
 pub mod html;
+pub mod mass_file;
 pub mod mesh_file;
 mod obj;
 mod stl;

@@ -47,6 +47,27 @@ pub struct MassProperties {
     pub inertia_unit_density: [[f64; 3]; 3],
 }
 
+impl MassProperties {
+    /// Those of the solid scaled about the origin: the volume goes with the third power of the factor, the inertia with
+    /// the fifth.
+    ///
+    /// # Errors
+    /// [`MassError::OutOfRange`], with the scaled solid's radius of gyration for its extent.
+    pub fn scaled(&self, factor: f64) -> Result<Self, MassError> {
+        let [[xx, ..], [_, yy, _], [.., zz]] = self.inertia_unit_density;
+        let extent = factor * libm::sqrt(0.5 * (xx + yy + zz) / self.volume);
+        if !REACH_M.contains(&extent) {
+            return Err(MassError::OutOfRange { extent });
+        }
+        let (square, Point { x, y, z }) = (factor * factor, self.centre);
+        Ok(Self {
+            volume: self.volume * factor * square,
+            centre: Point { x: x * factor, y: y * factor, z: z * factor },
+            inertia_unit_density: self.inertia_unit_density.map(|row| row.map(|x| x * factor * square * square)),
+        })
+    }
+}
+
 /// Why a mesh has no mass properties.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]

@@ -6,10 +6,11 @@ use super::{Found, Look};
 use crate::algebra::cga::{Dilator, Point, Sphere};
 use crate::algebra::g3::Vector;
 use crate::geometry::enclosing_sphere::enclosing_sphere;
-use crate::geometry::mass_properties::{MassProperties, mass_properties};
+use crate::geometry::mass_properties::MassProperties;
 use crate::geometry::mesh::Mesh;
 use crate::geometry::mesh_checks::{self, Severity};
 use crate::geometry::solids::{self, SolidError};
+use crate::io::mass_file::{self, KeptMass};
 use crate::io::mesh_file::read_mesh;
 use crate::scene::description::Shape;
 use crate::scene::{Diagnostic, SceneSource, pictures, surfaces};
@@ -36,6 +37,7 @@ impl Solid {
 
 /// The solid of a shape.
 pub(super) fn solid(shape: &Shape, scale: f64, source: &SceneSource) -> Found<Solid> {
+    let mut kept = None;
     let length = |value: &toml::Spanned<f64>| value.get_ref() * scale;
     let (mesh, span) = match shape {
         Shape::Ball(it) => {
@@ -67,13 +69,15 @@ pub(super) fn solid(shape: &Shape, scale: f64, source: &SceneSource) -> Found<So
             let span = shape.file.span();
             let path = source.resolve(shape.file.get_ref());
             let file = read_mesh(&path).map_err(|error| Diagnostic::new(error.to_string()).at(span.clone()))?;
+            kept = mass_file::read(&path, &file.fingerprint)
+                .map_err(|error| Diagnostic::new(error.to_string()).at(span.clone()))?;
             (Ok(file.mesh), span)
         }
     };
     let failed = |what: String| Diagnostic::new(what).at(span.clone());
-    let mesh = scaled(&mesh.map_err(|error| failed(error.to_string()))?, scale);
-    usable(&mesh, &span)?;
-    let properties = mass_properties(&mesh).map_err(|error| failed(error.to_string()))?;
+    let mesh = mesh.map_err(|error| failed(error.to_string()))?;
+    let properties = convex_solid(&mesh, kept, &span)?.scaled(scale).map_err(|error| failed(error.to_string()))?;
+    let mesh = scaled(&mesh, scale);
     let centred: Vec<Point<f64>> =
         mesh.vertices.iter().map(|vertex| properties.centre.displacement_to(*vertex).into()).collect();
     let ball = enclosing_sphere(&centred).map_err(|error| failed(error.to_string()))?.ball;
@@ -97,20 +101,26 @@ fn scaled(mesh: &Mesh, factor: f64) -> Mesh {
     mesh
 }
 
-/// Refuses what is no convex solid, in the words of the mesh report.
-fn usable(mesh: &Mesh, span: &Range<usize>) -> Found<()> {
+/// The mass properties of a convex solid, as kept beside its file or else from the mesh. What is none is refused in the words
+/// of the mesh report. Judged as given, before it is scaled: the roundings of that would dent flat faces.
+fn convex_solid(mesh: &Mesh, kept: Option<KeptMass>, span: &Range<usize>) -> Found<MassProperties> {
+    let known = kept.map_or_else(|| examined(mesh, span), Ok)?;
+    if !known.convex {
+        return Err(Diagnostic::new("this shape is not convex, and collisions are modelled for convex bodies only")
+            .at(span.clone())
+            .help("use its convex hull, or split it into convex bodies"));
+    }
+    Ok(known.properties)
+}
+
+fn examined(mesh: &Mesh, span: &Range<usize>) -> Found<KeptMass> {
     let report = mesh_checks::check(mesh);
-    if !report.usable_as_body {
+    let Some(properties) = report.mass_properties else {
         let worst = report.messages.iter().find(|message| message.severity == Severity::Error);
         let text = worst.map_or_else(|| "it bounds no solid".to_string(), |message| message.text.clone());
         return Err(Diagnostic::new(format!("this shape is no solid body: {text}"))
             .at(span.clone())
             .help("`ga-physics mesh FILE` lists all that is wrong with a mesh file"));
-    }
-    if !report.convex {
-        return Err(Diagnostic::new("this shape is not convex, and collisions are modelled for convex bodies only")
-            .at(span.clone())
-            .help("use its convex hull, or split it into convex bodies"));
-    }
-    Ok(())
+    };
+    Ok(KeptMass { convex: report.convex, properties })
 }
