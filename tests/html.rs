@@ -157,6 +157,41 @@ fn poses_come_back_relative_to_the_centre() {
 }
 
 #[test]
+fn what_links_bodies_and_what_is_left_of_a_matrix_come_back() {
+    let offset = [1e6, 0.0, -1e3];
+    let playback = sample::linked("sample", offset);
+    let index = index(&render(&playback));
+    let links = index["links"].as_array().unwrap();
+    let kinds: Vec<_> = links.iter().map(|link| link["kind"].as_str().unwrap()).collect();
+    assert_eq!(kinds, ["ball", "hinge", "distance", "spring"]);
+    assert_eq!(links[0]["ends"][1], serde_json::json!({ "body": 2, "point": [0.0, 0.0, 0.45] }));
+    assert_eq!((&links[1]["axis"], &links[0]["axis"]), (&serde_json::json!([0.0, 1.0, 0.0]), &Value::Null));
+    // Points of the world are relative to the scene's centre, as positions are.
+    let numbers =
+        |value: &Value| -> Vec<f64> { value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect() };
+    let (centre, hook) = (numbers(&index["centre"]), numbers(&links[3]["ends"][0]["point"]));
+    let expected = [0.0, 0.0, 3.0];
+    assert!((0..3).all(|i| (hook[i] + centre[i] - offset[i] - expected[i]).abs() < 1e-9), "{hook:?} {centre:?}");
+    assert!(links[3]["ends"][0]["body"].is_null());
+    let [stretched] = &index["stretches"].as_array().unwrap()[..] else { panic!("one body") };
+    let rows = f32s(stretched["rows"].as_str().unwrap());
+    let stored: Vec<f32> = playback.stretched[0].stretch.iter().flatten().flatten().map(|x| *x as f32).collect();
+    assert_eq!((stretched["body"].as_u64(), rows), (Some(3), stored));
+    let profiles = index["shapes"].as_array().unwrap().iter().filter(|shape| !shape["revolution"].is_null()).count();
+    assert_eq!(profiles, 2);
+}
+
+#[test]
+fn a_stretch_that_is_missing_is_nan() {
+    let mut playback = sample::linked("short", [0.0; 3]);
+    playback.stretched[0].stretch.truncate(1);
+    let index = index(&render(&playback));
+    let rows = f32s(index["stretches"][0]["rows"].as_str().unwrap());
+    assert_eq!(rows.len(), 9 * playback.times_s.len());
+    assert!(rows[..9].iter().all(|x| x.is_finite()) && rows[9..].iter().all(|x| x.is_nan()));
+}
+
+#[test]
 fn a_scene_far_from_the_origin_keeps_its_digits() {
     // 1e6 m is between 2^19 and 2^20 m: f64 has steps of 2^-33 m there, f32 steps of 2^-4 m.
     let offset = [1e6, -1e6, 1e6];
@@ -373,6 +408,7 @@ fn write_samples() {
         ("pendulums", sample::pendulums("pendulums of all lengths", 12, [1e5, 0.0, 0.0])),
         ("sheet", sample::sheet("ten thousand particles", 100)),
         ("guides", sample::guides("what particles stay on")),
+        ("linked", sample::linked("linked bodies", [1e3, 0.0, 0.0])),
     ] {
         let path = folder.join(format!("{file}.html"));
         std::fs::write(&path, render(&playback)).unwrap();

@@ -3,7 +3,9 @@
 //! Bodies bounce on z = 0 along parabolas with a loss at each impact, and turn about a fixed axis. They do not touch
 //! each other: it is a picture to judge the viewer by, not physics.
 
-use ga_physics::io::html::{BodyView, EnergySample, Guide, Mark, ParticlesView, Playback, Shape};
+use ga_physics::io::html::{
+    BodyView, EnergySample, Guide, Link, LinkEnd, LinkKind, Mark, ParticlesView, Playback, Shape, Stretched,
+};
 
 const GRAVITY: f64 = 9.81;
 const RESTITUTION: f64 = 0.8;
@@ -180,6 +182,47 @@ pub(crate) fn crowd(scene: &str, n: usize) -> Playback<'_> {
         })
         .collect();
     thrown(scene, throws, 5.0, [0.0; 3])
+}
+
+/// Round bodies and a cube that is no longer one, joined in every way.
+pub(crate) fn linked(scene: &str, offset: [f64; 3]) -> Playback<'_> {
+    let throw = |name: &str, shape, x: f64, rate| Throw {
+        name: name.to_owned(),
+        shape,
+        radius: 0.4,
+        start: [x, 0.0, 1.5],
+        velocity: [0.0, 0.3 * x, 1.0],
+        axis: [0.3, 1.0, 0.2 * x],
+        rate,
+    };
+    let capsule = vec![[0.0, -0.5], [0.14, -0.44], [0.2, -0.3], [0.2, 0.3], [0.14, 0.44], [0.0, 0.5]];
+    let cone = vec![[0.0, -0.15], [0.3, -0.15], [0.0, 0.45]];
+    let throws = vec![
+        throw("capsule", Shape::Revolution { profile: capsule }, -1.0, 2.0),
+        throw("cone", Shape::Revolution { profile: cone }, 0.0, -1.5),
+        throw("no cube", cube(0.3), 1.0, 1.0),
+    ];
+    let playback = thrown(scene, throws, 3.0, offset);
+    let end = |body, point| LinkEnd::Body { body, point };
+    // The floor comes first.
+    let links = vec![
+        Link { kind: LinkKind::Ball, ends: [end(1, [0.0, 0.0, 0.5]), end(2, [0.0, 0.0, 0.45])] },
+        Link {
+            kind: LinkKind::Hinge { axis: [0.0, 1.0, 0.0] },
+            ends: [end(3, [0.3, 0.3, 0.3]), LinkEnd::World(offset)],
+        },
+        Link { kind: LinkKind::Distance, ends: [end(2, [0.0; 3]), end(3, [-0.3, 0.0, 0.0])] },
+        Link {
+            kind: LinkKind::Spring,
+            ends: [LinkEnd::World([offset[0], offset[1], offset[2] + 3.0]), end(1, [0.0; 3])],
+        },
+    ];
+    let shear = |frame: usize| {
+        let f = frame as f64 / playback.times_s.len() as f64;
+        [[1.0 - 0.5 * f, 0.6 * f, 0.0], [0.0, 1.0, 0.0], [0.3 * f, 0.0, 1.0 - 0.7 * f]]
+    };
+    let stretch = (0..playback.times_s.len()).map(shear).collect();
+    Playback { stretched: vec![Stretched { body: 3, stretch }], links, ..playback }
 }
 
 /// A recording of particles alone: where each is at a time, at 60 Hz.

@@ -188,17 +188,27 @@ class Recording:
     def __init__(self, page):
         text = page.read_text(encoding="utf-8")
         block = lambda name: re.search(f'id="{name}">([^<]*)<', text).group(1)
-        numbers = lambda name, letter, size: struct.unpack(f"<{len(base64.b64decode(block(name))) // size}{letter}", base64.b64decode(block(name)))
+        unpacked = lambda data, letter, size: struct.unpack(f"<{len(base64.b64decode(data)) // size}{letter}", base64.b64decode(data))
+        numbers = lambda name, letter, size: unpacked(block(name), letter, size)
         self.index = json.loads(block("ga-index"))
         self.times = numbers("ga-times", "d", 8)
         self.poses = numbers("ga-poses", "f", 4)
         self.points = numbers("ga-points", "f", 4)
         self.particles = len(self.index["particles"]["names"])
+        self.stretches = {entry["body"]: unpacked(entry["rows"], "f", 4) for entry in self.index["stretches"]}
         self.moving = [i for i, body in enumerate(self.index["bodies"]) if not body["fixed"]]
 
     def pose(self, frame, body):
         at = 7 * (frame * len(self.index["bodies"]) + body)
         return self.poses[at:at + 7]
+
+    def image(self, frame, body, point):
+        """Where a point of a body is: by its rotor, after what is left of a matrix beside it."""
+        pose = self.pose(frame, body)
+        if body in self.stretches:
+            rows = self.stretches[body][9 * frame:9 * frame + 9]
+            point = [sum(rows[3 * i + k] * point[k] for k in range(3)) for i in range(3)]
+        return [p + t for p, t in zip(pose, rotor_image(*pose[3:], point))]
 
 
 def check_poses(browser, recording):
@@ -211,12 +221,28 @@ def check_poses(browser, recording):
                 continue
             for point in ([1, 0, 0], [0, 1, 0], [0, 0, 1]):
                 shown = browser.script("return gaViewer.worldPoint(arguments[0], arguments[1])", body, point)
-                turned = rotor_image(*pose[3:], point)
                 size = 1 + max(map(abs, pose[:3]))
-                worst = max([worst] + [abs(s - p - t) / size for s, p, t in zip(shown, pose, turned)])
+                worst = max([worst] + [abs(s - p) / size for s, p in zip(shown, recording.image(frame, body, point))])
                 seen += 1
     # Both compute in f64 from the same stored numbers: a few roundings of 1.1e-16 each.
     check(worst < 1e-14, f"{seen} points of bodies where R x ~R puts them (worst {worst:.1e})")
+
+
+def check_links(browser, recording):
+    """Joints and springs end where the points of their bodies are."""
+    links = recording.index["links"]
+    if not links:
+        return
+    worst, seen = 0.0, 0
+    for frame in {0, len(recording.times) // 2, len(recording.times) - 1}:
+        browser.script("gaViewer.setTime(arguments[0])", recording.times[frame])
+        for i, link in enumerate(links):
+            for k, end in enumerate(link["ends"]):
+                shown = browser.script("return gaViewer.linkEnd(arguments[0], arguments[1])", i, k)
+                point = recording.image(frame, end["body"], end["point"]) if "body" in end else end["point"]
+                worst = max([worst] + [abs(s - p) / (1 + abs(p)) for s, p in zip(shown, point)])
+                seen += 1
+    check(worst < 1e-14, f"{seen} ends of joints and springs on their bodies (worst {worst:.1e})")
 
 
 def check_particles(browser, recording):
@@ -329,6 +355,7 @@ def check_renderer(page, recording, out, renderer, any_renderer):
         check_slider(browser, recording, out, f"{page.stem}-{renderer}")
         if recording.moving:
             check_poses(browser, recording)
+        check_links(browser, recording)
         check_particles(browser, recording)
         check_picking(browser, recording, out, f"{page.stem}-{renderer}")
         check_playing(browser, recording)

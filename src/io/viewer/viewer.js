@@ -353,6 +353,10 @@ try {
       const pose = poseAt(viewer.recording, body, bracket(viewer.recording, viewer.time));
       return pose && add(pose.position, mapped(mapOf(pose.quaternion, pose.stretch), point));
     },
+    /** Where an end of a joint or spring is at the present time, relative to the scene's centre. */
+    linkEnd(link, end) {
+      return viewer.stage.links(bracket(viewer.recording, viewer.time))[link]?.ends[end];
+    },
     /** Where a particle is in the picture, in pixels from its top left. */
     particlePixel(particle) {
       const { x, y } = project(viewer.view, viewer.stage.cloud.position(particle));
