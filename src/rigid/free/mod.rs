@@ -147,7 +147,7 @@ impl FreeMotion {
 
 /// The orientation after a time, s, of either sign, of a body that nothing turns: one exact step.
 ///
-/// A step in which the momentum's own motion in the body is short, by [`short::LONGEST`], takes a series; any other is
+/// A step in which the momentum's own motion in the body is short, a fifth of a radian, takes a series; any other is
 /// [`FreeMotion`]'s.
 #[must_use]
 pub fn turn<T: Real>(inertia: &Inertia<T>, rotor: Rotor<T>, angular_momentum: Bivector<T>, h_s: f64) -> Rotor<T> {
