@@ -5,6 +5,8 @@
 //! [`circle_parts`] takes a blade as it is. Where a sign alone decides, [`predicates`] knows it exactly. Geometry knows no
 //! time.
 
+#[cfg(feature = "study")]
+pub mod cell_counting;
 mod degenerate;
 mod disjoint_sets;
 mod double_double;

@@ -155,6 +155,12 @@ impl<'a> ClosedMesh<'a> {
         Ok(Self(mesh))
     }
 
+    /// The mesh.
+    #[must_use]
+    pub fn mesh(self) -> &'a Mesh {
+        self.0
+    }
+
     /// The mass properties of the inside at unit density, [to within 1e-14](self#promise). O(n).
     ///
     /// # Errors
