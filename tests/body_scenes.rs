@@ -300,3 +300,23 @@ fn a_top_without_gravity_keeps_angular_momentum_about_its_joint() {
     assert!(kept.figure("angular_momentum_drift_rel") < 1e-12, "{}", kept.figure("angular_momentum_drift_rel"));
     assert!(kept.summary["momentum_drift_rel"].is_null(), "the joint takes momentum");
 }
+
+#[test]
+fn elastic_impacts_of_jointed_bodies_keep_energy_and_their_joint() {
+    // Two bars on a ball joint fall on a floor, one end on a post: the joint is struck, too.
+    let bar = |name: &str, x: f64| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nmass_kg = 1\nposition_m = [{x:?}, 0, 0.5]\nshape.box.size_m = [0.8, 0.2, 0.2]\n"
+        )
+    };
+    let kept = run_text(&format!(
+        "duration_s = 0.4\ndt_s = 0.005\ngravity_m_s2 = [0, 0, -9.81]\n{}{}[[joint]]\nball = {{ a = \"a\", b = \"b\", \
+         point_m = [0.4, 0, 0.5] }}\n[[body]]\nname = \"floor\"\nfixed = true\nshape.plane.normal = [0, 0, 1]\n\
+         [[body]]\nname = \"post\"\nfixed = true\nposition_m = [0.2, 0.1, 0.15]\nshape.box.size_m = [0.1, 0.1, 0.29]\n",
+        bar("a", 0.0),
+        bar("b", 0.8)
+    ));
+    println!("energy {} events {}", kept.figure("energy_drift_rel"), kept.figure("events"));
+    assert!(kept.figure("events") >= 2.0 && kept.figure("max_violation_m") < 1e-12);
+    assert!(kept.figure("energy_drift_rel") < 1e-5, "{}", kept.figure("energy_drift_rel"));
+}

@@ -366,6 +366,22 @@ fn a_box_that_comes_to_rest_ends_the_run_and_its_files_are_kept() {
 }
 
 #[test]
+fn a_body_that_turns_too_far_in_a_step_is_named_with_a_remedy() {
+    let scene = format!("{HEAD}{CUBE}omega_body_rad_s = [1e3, 0, 0]\n");
+    let (directory, ended) = run_text(&scene, &["--set", "solver.method=rk4"]);
+    assert_eq!(ended.code, Some(1), "{}", ended.err);
+    assert!(
+        ended.err.contains("`cube`") && ended.err.contains("dt_s") && ended.err.contains("yoshida4"),
+        "{}",
+        ended.err
+    );
+    assert_eq!(listing(&directory.path().join("out/scene")), FILES, "what was recorded is kept");
+    // What the message names helps.
+    assert_eq!(run_text(&scene, &["--set", "solver.method=yoshida4"]).1.code, Some(0));
+    assert_eq!(run_text(&scene, &[]).1.code, Some(0));
+}
+
+#[test]
 fn a_place_that_cannot_be_written_is_a_failed_run_said_at_once() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("scene.toml"), format!("{HEAD}{CUBE}")).unwrap();

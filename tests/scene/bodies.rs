@@ -4,10 +4,10 @@ use ga_physics::algebra::Real;
 use ga_physics::algebra::g3::Vector;
 use ga_physics::rigid::{Attachment, Bodies, Force, Form, Formulation as _, Joint, matrix, motor, quaternion};
 use ga_physics::scene::build::{Built, Look, build};
-use ga_physics::scene::description::{Formulation, Method};
+use ga_physics::scene::description::{self, Formulation, Method};
 use ga_physics::scene::plan::{BodySolverPlan, Plan, Stepping, interval_s, plan, record_hz, steps};
 
-use crate::{SOUND, accepted, read};
+use crate::{SOUND, accepted, complaints, read};
 
 fn body(name: &str, rest: &str) -> String {
     format!("[[body]]\nname = \"{name}\"\nmass_kg = 2\ninertia_kg_m2 = [0.5, 0.4, 0.3]\n{rest}")
@@ -132,7 +132,7 @@ fn what_is_evaluated_and_not_stepped_is_known_at_frames() {
     let balls = boxes.replace("shape.box.size_m = [1, 1, 1]", "shape.ball.radius_m = 0.5");
     let plan = planned(&format!("{SOUND}{balls}"));
     assert_eq!(plan.collision_pairs, 0);
-    assert!(plan.left_out.iter().any(|left_out| left_out.what == "round shapes" && left_out.why.contains("2 balls")));
+    assert!(plan.left_out.iter().any(|left_out| left_out.what == "round shapes" && left_out.why.contains("2 here")));
 }
 
 fn built(text: &str) -> Built<f64> {
@@ -232,4 +232,15 @@ fn bodies_are_listed_by_formulation_each_once() {
         format!("{SOUND}{}{fixed}{}", body("a", "formulation = \"matrix\"\n"), body("b", "position_m = [5, 0, 0]\n"));
     let lists: Vec<_> = built(&text).body_solvers.into_iter().map(|(solver, list)| (solver.form, list)).collect();
     assert_eq!(lists, [(Form::Matrix, vec![0, 1]), (Form::Rotor, vec![2])]);
+}
+
+#[test]
+fn an_override_reaches_joints_by_their_index() {
+    let text = format!("{SOUND}{}{BALL}", body("a", ""));
+    let moved = accepted(&text, &["joint.0.ball.point_m=[1, 2, 3]", "body.a.formulation=motor"]);
+    let [description::Joint::Ball(ball)] = &moved.joint[..] else { panic!("a ball") };
+    assert_eq!(ball.point_m.get_ref().0, [1.0, 2.0, 3.0]);
+    assert_eq!(moved.formulation_of(&moved.body[0]), Formulation::Motor);
+    assert!(complaints(&text, &["joint.1.ball.point_m=[1, 2, 3]"]).contains("`joint` has no element `1`"));
+    assert!(complaints(SOUND, &["joint.0.ball.point_m=[1, 2, 3]"]).contains("the scene has no [[joint]]"));
 }

@@ -39,8 +39,8 @@ pub struct Scene {
     /// How long the run lasts, in s. Positive.
     #[schemars(with = "f64", extend("exclusiveMinimum" = 0))]
     pub duration_s: Spanned<f64>,
-    /// The time step, in s. Positive, at most `duration_s`. Where steps are chosen by `rtol` it is the largest, and may be
-    /// left out unless bodies can collide.
+    /// The time step, in s. Positive, at most `duration_s`. Where steps are chosen by `rtol` it is the largest for particles,
+    /// and for bodies how often they are looked at; unless bodies can collide, it may be left out then.
     #[schemars(with = "Option<f64>", extend("exclusiveMinimum" = 0))]
     pub dt_s: Option<Spanned<f64>>,
     /// How many frames per second of simulated time are recorded, in 1/s. Without it every step is; 60 where the steps

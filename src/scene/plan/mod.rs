@@ -164,7 +164,8 @@ impl Plan {
         self.choose(loads.drags > 0, "drag on bodies", &format!("linear, {}", loads.drags), "no [[force]] names one");
         let how = format!("{}, {} with a damper", loads.springs, loads.dampers);
         self.choose(loads.springs > 0, "springs on bodies", &how, "no [[force]] `spring` names one");
-        let how = format!("{}, which take {} degrees of freedom", loads.joints, loads.joint_rows);
+        let violation = self.body_solvers.first().map_or(0.0, |solver| solver.violation);
+        let how = format!("{}, {} rows, held to {violation:e} of the smallest", loads.joints, loads.joint_rows);
         self.choose(loads.joints > 0, "joints", &how, "the scene has no [[joint]]");
         self.collisions(scene);
     }
@@ -194,10 +195,6 @@ impl Plan {
             };
             self.leave_out("steps of bodies", why);
         }
-        if solver.joints > 0 {
-            let how = format!("{}, {} rows, violation {:e}", solver.joints, solver.joint_rows, solver.violation);
-            self.model("joints of these", how);
-        }
     }
 
     fn collisions(&mut self, scene: &Scene) {
@@ -213,7 +210,7 @@ impl Plan {
         let round = scene.body.iter().filter(round).count();
         if round > 0 {
             let why =
-                format!("do not collide yet: {round} balls, capsules, cylinders or cones pass through everything");
+                format!("not modelled: balls, capsules, cylinders and cones, {round} here, pass through everything");
             self.leave_out("round shapes", &why);
         }
         if !joined_pairs(scene).is_empty() {
@@ -261,7 +258,13 @@ impl Plan {
             (Stepping::None, _) => format!("none: evaluated {between}"),
             (Stepping::Chosen, Some(dt_s)) => format!("chosen by the method, at most {dt_s} s, {between}"),
             (Stepping::Chosen, None) => format!("chosen by the method, {between}"),
-            (Stepping::Fixed, dt_s) => format!("{} of {} s", self.steps, dt_s.unwrap_or_default()),
+            (Stepping::Fixed, dt_s) => {
+                let dt_s = dt_s.unwrap_or_default();
+                let stepped = self.body_solvers.iter().any(|solver| !solver.adaptive && !solver.is_exact())
+                    || self.particle_solver.as_ref().is_some_and(|solver| !solver.adaptive);
+                let what = if stepped { "of" } else { "states asked for, every" };
+                format!("{} {what} {dt_s} s", self.steps)
+            }
         };
         write!(f, "  {:<18} {steps}", "steps")?;
         if self.bodies > 0 {
