@@ -284,6 +284,7 @@ fn table(summary: &Summary, out: &Path) -> String {
         Some(("momentum drift", drift(summary.momentum_drift_rel))),
         Some(("ang. mom. drift", drift(summary.angular_momentum_drift_rel))),
         with_bodies.then(|| ("max penetration", metres(summary.max_penetration_m))),
+        summary.body_work.as_ref().and_then(joints).map(|joints| ("joints", joints)),
         summary.max_violation_m.map(|violation| ("max violation", held(violation, summary))),
         distorted(summary).map(|distortion| ("max distortion", format!("{distortion:.1e}"))),
         Some(("state hash", summary.state_hash.clone())),
@@ -291,6 +292,19 @@ fn table(summary: &Summary, out: &Path) -> String {
     let mut text: String = rows.iter().flatten().map(|(name, value)| format!("{name:<16} {value}\n")).collect();
     text += &format!("open             {}\n", out.join("run.html").display());
     text
+}
+
+/// The joints, where there are any, and what is to be known of them.
+fn joints(work: &BodyWork) -> Option<String> {
+    let redundant = match work.redundant_rows {
+        0 => String::new(),
+        rows => format!(", {rows} of them redundant"),
+    };
+    let redirected = match work.redirected_drifts {
+        0 => String::new(),
+        drifts => format!(", {drifts} drifts in which they turned too far and lost energy: take a smaller `dt_s`"),
+    };
+    (work.joints > 0).then(|| format!("{} with {} rows{redundant}{redirected}", work.joints, work.joint_rows))
 }
 
 /// The worst distortion, where an orientation can be distorted.
@@ -302,7 +316,9 @@ fn distorted(summary: &Summary) -> Option<f64> {
 /// The worst violation, and what was asked for where it is more.
 fn held(violation_m: f64, summary: &Summary) -> String {
     // The violation is judged by another formula than the solver's, which rounds otherwise.
-    let asked_m = summary.particle_work.as_ref().map_or(f64::INFINITY, |work| work.asked_violation_m);
+    let of_particles = summary.particle_work.as_ref().map(|work| work.asked_violation_m);
+    let of_joints = summary.body_work.as_ref().and_then(|work| work.asked_violation_m);
+    let asked_m = [of_particles, of_joints].into_iter().flatten().reduce(f64::max).unwrap_or(f64::INFINITY);
     let more =
         if violation_m > 1.1 * asked_m { format!(", more than the {asked_m:.1e} m asked for") } else { String::new() };
     format!("{violation_m:.1e} m{more}")
