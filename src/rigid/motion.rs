@@ -23,7 +23,6 @@ struct Part<T: Real> {
     /// Of these bodies; the others stand still in it.
     system: System<T>,
     method: Box<dyn Advance<T>>,
-    form: Form,
     /// Which bodies; all of them where there is one part.
     bodies: Vec<usize>,
 }
@@ -35,6 +34,8 @@ struct Part<T: Real> {
 pub struct Motion<T: Real> {
     setup: Setup<T>,
     parts: Vec<Part<T>>,
+    /// One entry a body.
+    forms: Vec<Form>,
     start: Bodies<T>,
     moved: Bodies<T>,
 }
@@ -53,6 +54,7 @@ impl<T: Real> Motion<T> {
     /// # Errors
     /// As [`Motion::new`]; bodies of two lists that something links.
     pub fn mixed(setup: Setup<T>, bodies: &Bodies<T>, lists: &[(Solver, Vec<usize>)]) -> Result<Self, SolverError> {
+        let mut forms = vec![Form::default(); bodies.len()];
         let mut parts = vec![];
         for (solver, own) in lists {
             if !solver.method.fits(solver.form) {
@@ -73,9 +75,10 @@ impl<T: Real> Motion<T> {
                 Form::Rotor => on_group::<Bodies<T>, T>(bodies, solver)?,
                 Form::Motor => on_group::<motor::State<T>, T>(bodies, solver)?,
             };
-            parts.push(Part { system, method, form: solver.form, bodies: own.clone() });
+            own.iter().for_each(|body_idx| forms[*body_idx] = solver.form);
+            parts.push(Part { system, method, bodies: own.clone() });
         }
-        Ok(Self { setup, parts, start: bodies.clone(), moved: bodies.clone() })
+        Ok(Self { setup, parts, forms, start: bodies.clone(), moved: bodies.clone() })
     }
 
     /// Takes bodies from a time over a span, s, in pieces between the times at which forces switch.
@@ -100,8 +103,7 @@ impl<T: Real> Motion<T> {
     /// How the motion of a body is written.
     #[must_use]
     pub fn form_of(&self, body_idx: usize) -> Form {
-        let part = self.parts.iter().find(|part| part.bodies.contains(&body_idx));
-        part.map_or_else(Form::default, |part| part.form)
+        self.forms.get(body_idx).copied().unwrap_or_default()
     }
 
     /// Masses, forces, joints.
