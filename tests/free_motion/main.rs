@@ -215,6 +215,9 @@ fn energy_and_norm_stay() {
         worst[0] = worst[0].max((energy(&spun.body, rotor, spun.momentum) / start - 1.0).abs());
         worst[1] = worst[1].max((rotor.norm_sq() - 1.0).abs());
     }
+    // Long steps, each of which rounds all of the rotor: left alone they would be off by 1e-17 a step, all in one direction.
+    let long = (energy(&spun.body, spun.turns(10_000, 1.0), spun.momentum) / start - 1.0).abs();
+    assert!(long < 4e-14, "{long:e}");
     let motion = spun.motion();
     let at = |step: u32| (energy(&spun.body, motion.at(f64::from(step) * 10.0), spun.momentum) / start - 1.0).abs();
     let prepared = (0..10_000).map(at).fold(0.0, f64::max);
