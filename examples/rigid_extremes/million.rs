@@ -16,7 +16,7 @@ pub(crate) fn table() {
          steps by which it went on from 10⁴ to 10⁶: 0 bounded, 1/2 a walk of roundings, 1 a drift.\n"
     );
     println!(
-        "| body, omega, rad/s | scalar | method | 10² | 10⁴ | 10⁶ | growth | |L| | norm |\n|---|---|---|---|---|---|---|---|---|"
+        "| body, omega, rad/s | scalar | method | 10² | 10⁴ | 10⁶ | growth | L | norm |\n|---|---|---|---|---|---|---|---|---|"
     );
     let cases: [(&str, [f64; 3], [f64; 3]); 4] = [
         ("1:2:3, (0.01, 1, 0.01)", [1.0, 2.0, 3.0], [0.01, 1.0, 0.01]),
