@@ -1,7 +1,7 @@
 //! The sums over facets in double-double, about a point from which differences to the vertices are exact.
 //!
 //! For surfaces whose terms cancel too much for [`bounded`](super::bounded): thin plates, long rods, shapes far to one
-//! side of the point. Some sixty times its cost.
+//! side of the point. Some forty times its cost.
 
 use super::{Integrals, MassError, REACH_M};
 use crate::geometry::double_double::DoubleDouble;
