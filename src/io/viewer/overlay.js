@@ -156,8 +156,6 @@ class Overlay {
     const chosen = moving.length > MAX_PATHS ? moving.filter((item) => item.selected) : moving;
     for (const item of chosen) {
       for (const gone of [false, true]) {
-        c.strokeStyle = css(item.rgb, gone ? 0.85 : 0.25);
-        c.lineWidth = gone ? 2 : 1;
         c.beginPath();
         let pen = false;
         for (const step of this.path(item.body)) {
@@ -168,6 +166,15 @@ class Overlay {
         }
         const now = project(view, item.position);
         if (gone && pen && now.depth > view.near) c.lineTo(now.x, now.y);
+        // A body's way is of its colour: on the body itself only its border shows.
+        c.lineJoin = "round";
+        if (gone) {
+          c.strokeStyle = scene.theme.dark ? "rgba(18,20,24,0.55)" : "rgba(255,255,255,0.65)";
+          c.lineWidth = 4.5;
+          c.stroke();
+        }
+        c.strokeStyle = css(item.rgb, gone ? 0.85 : 0.25);
+        c.lineWidth = gone ? 2 : 1;
         c.stroke();
       }
     }
