@@ -320,3 +320,21 @@ fn elastic_impacts_of_jointed_bodies_keep_energy_and_their_joint() {
     assert!(kept.figure("events") >= 2.0 && kept.figure("max_violation_m") < 1e-12);
     assert!(kept.figure("energy_drift_rel") < 1e-5, "{}", kept.figure("energy_drift_rel"));
 }
+
+#[test]
+fn a_joint_that_cannot_be_held_is_named_also_among_bodies_of_several_formulations() {
+    // The top's joint comes second, and is the first of the rotors.
+    let other = format!("formulation = \"motor\"\n{}", "position_m = [9, 0, 0]\n");
+    let free = body("other", &other) + "[[joint]]\nball = { a = \"other\", point_m = [9, 0, 0] }\n";
+    let shipped = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/heavy-top.toml")).unwrap();
+    let (head, top) = shipped.split_once("[[body]]").unwrap();
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("scene.toml");
+    fs::write(&path, format!("{head}{free}[[body]]{top}")).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ga-physics"));
+    let output =
+        command.arg("run").arg(&path).args(["--set", "dt_s=0.5"]).current_dir(directory.path()).output().unwrap();
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains("the ball joint of `top`") && message.contains("smaller `dt_s`"), "{message}");
+}

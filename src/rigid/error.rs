@@ -49,6 +49,32 @@ pub enum MotionError {
     },
 }
 
+impl MotionError {
+    /// The joint that it is about.
+    fn joint_mut(&mut self) -> Option<&mut usize> {
+        match self {
+            Self::Multipliers { source, .. } | Self::Projection { source: ProjectionError::Solve(source), .. } => {
+                match source {
+                    SolveError::NotFinite { row } | SolveError::Contradiction { row, .. } => Some(row),
+                }
+            }
+            Self::Projection {
+                source: ProjectionError::NotConverged { row, .. } | ProjectionError::NoGradient { row },
+                ..
+            } => Some(row),
+            Self::Orientation { .. } | Self::Spin { .. } => None,
+        }
+    }
+
+    /// The same of a joint that has another index.
+    pub(super) fn renumbered(mut self, index_of: impl FnOnce(usize) -> usize) -> Self {
+        if let Some(joint) = self.joint_mut() {
+            *joint = index_of(*joint);
+        }
+        self
+    }
+}
+
 /// Why a solver cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum SolverError {

@@ -5,8 +5,8 @@ use super::flight::Flight;
 use super::matrix;
 use super::stepping::{AdaptiveSteps, Advance, Composed, FixedSteps};
 use super::{
-    Bodies, Forces, Form, Formulation, Inertia, Method, MotionError, Setup, Solver, SolverError, Steps, System, Totals,
-    motor, quaternion, totals,
+    Bodies, Forces, Form, Formulation, Inertia, Joint, Method, MotionError, Setup, Solver, SolverError, Steps, System,
+    Totals, motor, quaternion, totals,
 };
 use crate::algebra::Real;
 use crate::ode::lie::{CommutatorFree4, LieRungeKutta, LieState, LieStepper, Rkmk4};
@@ -92,7 +92,10 @@ impl<T: Real> Motion<T> {
         self.start.assign(bodies);
         for part in &mut self.parts {
             self.moved.assign(&self.start);
-            part.advance(&mut self.moved, t_s, span_s)?;
+            part.advance(&mut self.moved, t_s, span_s).map_err(|error| match error {
+                OdeError::System(error) => OdeError::System(error.renumbered(|joint| part.joint(&self.setup, joint))),
+                error => error,
+            })?;
             for body_idx in &part.bodies {
                 bodies.assign_body(*body_idx, &self.moved);
             }
@@ -131,7 +134,8 @@ impl<T: Real> Motion<T> {
     pub fn project_velocities(&mut self, bodies: &mut Bodies<T>, time_s: f64) -> Result<(), MotionError> {
         for part in &mut self.parts {
             let projected = part.system.held.project_velocities(bodies);
-            projected.map_err(|source| MotionError::Multipliers { time_s, source })?;
+            let failed = |source| MotionError::Multipliers { time_s, source };
+            projected.map_err(|source| failed(source).renumbered(|joint| part.joint(&self.setup, joint)))?;
         }
         Ok(())
     }
@@ -179,6 +183,16 @@ impl<T: Real> Motion<T> {
 }
 
 impl<T: Real> Part<T> {
+    /// The index among all joints of one of its own.
+    fn joint(&self, whole: &Setup<T>, own: usize) -> usize {
+        let movable = |body_idx: &usize| !whole.inertias[*body_idx].is_immovable();
+        let of_part = |joint: &Joint<T>| {
+            joint.bodies().into_iter().flatten().filter(movable).any(|body_idx| self.bodies.contains(&body_idx))
+        };
+        let all = whole.joints.iter().enumerate().filter(|(_, joint)| of_part(joint));
+        all.map(|(index, _)| index).nth(own).unwrap_or(own)
+    }
+
     fn advance(&mut self, bodies: &mut Bodies<T>, t_s: f64, span_s: f64) -> Result<(), OdeError<MotionError>> {
         let end_s = t_s + span_s;
         let mut from_s = t_s;
