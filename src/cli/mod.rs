@@ -7,6 +7,7 @@ mod explain;
 pub mod mesh;
 mod playback;
 mod run;
+mod table;
 
 use crate::io::files::WriteError;
 use crate::scene::description::Scalar;

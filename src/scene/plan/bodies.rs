@@ -2,11 +2,12 @@
 
 use super::solver::{high_order_pays, joint_violation, rtol, tolerated};
 use super::steps::wants_error_control;
+use super::{Plan, joined_pairs, scalar_name};
 use crate::algebra::cga::Point;
 use crate::ode::Tolerance;
 use crate::rigid::{self, Steps};
 use crate::scene::bodies::Loads;
-use crate::scene::description::{Formulation, Method, Scalar, Scene};
+use crate::scene::description::{Body, Formulation, Method, Scalar, Scene, Shape};
 use serde::Serialize;
 
 /// How the motion of the bodies of one formulation is solved: what the scene says, and for the rest what the plan chooses.
@@ -153,4 +154,77 @@ fn best(scene: &Scene, formulation: Formulation, loads: &Loads) -> (Method, rigi
     }
     let why = "steps of `dt_s`: exact turns between kicks of forces and joints, which keep the energy";
     (Method::Yoshida4, rigid::Method::Yoshida4, why)
+}
+
+impl Plan {
+    pub(super) fn rigid_bodies(&mut self, scene: &Scene, loads: &Loads) {
+        if scene.body.is_empty() {
+            return self.leave_out("bodies", "the scene has no [[body]]");
+        }
+        let scalar = scalar_name(scene);
+        for solver in self.body_solvers.clone() {
+            self.moved(scene, scalar, &solver);
+        }
+        let (points, torques) = (loads.at_points, loads.torques);
+        let how = format!("{points}, steps cut where they start and end");
+        self.choose(points > 0, "forces at points", &how, "no [[force]] names one");
+        let how = format!("{torques}, steps cut where they start and end");
+        self.choose(torques > 0, "torques", &how, "no [[force]] `torque`");
+        self.choose(loads.drags > 0, "drag on bodies", &format!("linear, {}", loads.drags), "no [[force]] names one");
+        let how = format!("{}, {} with a damper", loads.springs, loads.dampers);
+        self.choose(loads.springs > 0, "springs on bodies", &how, "no [[force]] `spring` names one");
+        let violation = self.body_solvers.first().map_or(0.0, |solver| solver.violation);
+        let how = format!("{}, {} rows, held to {violation:e} of the smallest", loads.joints, loads.joint_rows);
+        self.choose(loads.joints > 0, "joints", &how, "the scene has no [[joint]]");
+        self.collisions(scene);
+    }
+
+    /// How the bodies of one formulation are moved.
+    fn moved(&mut self, scene: &Scene, scalar: &str, solver: &BodySolverPlan) {
+        let count = if solver.bodies == 1 { "1 body".into() } else { format!("{} bodies", solver.bodies) };
+        let form = match solver.formulation {
+            Formulation::Matrix => "3x3 rotation matrix, not renormalised",
+            Formulation::Quaternion => "unit quaternion",
+            Formulation::Rotor => "G(3,0) rotor form",
+            Formulation::Motor => "conformal motor form",
+        };
+        self.model("rigid motion", format!("{count}, {form}, {scalar} with f64 world positions"));
+        let name = solver.method.name();
+        self.model("solver of bodies", format!("`{name}`: {}", solver.why));
+        if solver.adaptive {
+            let how = format!("rtol {:e}, atol {:e}, the largest of all errors", solver.rtol, solver.atol);
+            self.model("their steps", how);
+        } else if scene.solver.rtol.is_some() {
+            self.leave_out("tolerances of bodies", &format!("`{name}` does not control its error"));
+        }
+        if solver.is_exact() {
+            let why = match self.collision_pairs {
+                0 => "the motion is evaluated at each frame, however far apart",
+                _ => "the motion is evaluated every `dt_s`, to look for collisions",
+            };
+            self.leave_out("steps of bodies", why);
+        }
+    }
+
+    fn collisions(&mut self, scene: &Scene) {
+        let planes = scene.body.iter().any(|body| matches!(body.shape, Some(Shape::Plane(_))));
+        let pairs = self.collision_pairs;
+        let how = format!(
+            "{pairs} {}; {}balls, vertices in bodies, edges through facets",
+            if pairs == 1 { "pair" } else { "pairs" },
+            if planes { "half-spaces, " } else { "" }
+        );
+        self.choose(pairs > 0, "collisions", &how, "no two bodies with shapes of which one moves");
+        let round = |body: &&Body| body.shape.as_ref().is_some_and(|shape| !shape.collides());
+        let round = scene.body.iter().filter(round).count();
+        if round > 0 {
+            let why =
+                format!("not modelled: balls, capsules, cylinders and cones, {round} here, pass through everything");
+            self.leave_out("round shapes", &why);
+        }
+        if !joined_pairs(scene).is_empty() {
+            self.leave_out("jointed pairs", "bodies that a joint links do not collide with one another");
+        }
+        self.leave_out("resting contact", "not modelled: bodies that stay in contact end the run");
+    }
 }
