@@ -161,7 +161,10 @@ impl<T: Real> State<T> for Bodies<T> {
         assign(&mut self.rotor, &other.rotor);
         assign(&mut self.momentum, &other.momentum);
         assign(&mut self.angular_momentum, &other.angular_momentum);
-        self.matrix.clone_from(&other.matrix);
+        // Nearly always there are none.
+        if !(self.matrix.is_empty() && other.matrix.is_empty()) {
+            assign(&mut self.matrix, &other.matrix);
+        }
     }
 
     fn add_scaled(&mut self, terms: &[(T, &Rates<T>)]) {

@@ -10,7 +10,7 @@ use nalgebra::{Quaternion, UnitQuaternion};
 pub const END_S: f64 = 100.0;
 
 /// Steps of 0.01 s: those with which the times of a step are compared.
-pub const STANDARD_STEPS: u32 = 10_000;
+pub(super) const STANDARD_STEPS: u32 = 10_000;
 
 pub(super) const MOMENTS: [f64; 3] = [1.0, 2.0, 3.0];
 pub(super) const OMEGA_BODY: [f64; 3] = [0.01, 1.0, 0.01];

@@ -26,6 +26,8 @@ pub struct Scope {
     pub step_factor: u32,
     /// How many powers, from the zeroth.
     pub step_count: u32,
+    /// The steps that are compared step by step, the plain RK4's too; a multiple of 100.
+    pub standard_steps: u32,
     /// Tolerances are powers of a tenth: from one to the next.
     pub tolerance_stride: u32,
     /// Time for all times.
@@ -34,24 +36,36 @@ pub struct Scope {
 
 impl Scope {
     /// Seconds.
-    pub const QUICK: Self = Self { step_factor: 8, step_count: 4, tolerance_stride: 3, budget: Duration::from_secs(5) };
+    pub const QUICK: Self = Self {
+        step_factor: 8,
+        step_count: 4,
+        standard_steps: STANDARD_STEPS,
+        tolerance_stride: 3,
+        budget: Duration::from_secs(5),
+    };
     /// A minute and a half.
-    pub const FULL: Self =
-        Self { step_factor: 2, step_count: 12, tolerance_stride: 1, budget: Duration::from_secs(80) };
+    pub const FULL: Self = Self {
+        step_factor: 2,
+        step_count: 12,
+        standard_steps: STANDARD_STEPS,
+        tolerance_stride: 1,
+        budget: Duration::from_secs(80),
+    };
 }
 
 /// From this power of a tenth to that; below, steps are made of rounding.
-const TOLERANCES: std::ops::RangeInclusive<u32> = 3..=14;
+const TOLERANCES: std::ops::RangeInclusive<u32> = 3..=13;
 
 /// All settings of a scope.
 fn settings(scope: &Scope) -> Vec<Setting> {
     let mut settings = Vec::new();
     let mut steps: Vec<u32> = (0..scope.step_count).map(|power| 100 * scope.step_factor.pow(power)).collect();
-    steps.push(STANDARD_STEPS);
+    steps.push(scope.standard_steps);
     steps.sort_unstable();
+    steps.dedup();
     for form in Form::ALL {
         for method in Method::ALL.into_iter().filter(|method| is_compared(*method) && method.fits(form)) {
-            let steps: &[u32] = if method == Method::FreeFlight { &[STANDARD_STEPS] } else { &steps };
+            let steps: &[u32] = if method == Method::FreeFlight { &[scope.standard_steps] } else { &steps };
             settings.extend(steps.iter().map(|steps| Setting::fixed(form, method, *steps)));
             if method.is_adaptive() {
                 let powers = TOLERANCES.step_by(scope.tolerance_stride as usize);
@@ -81,6 +95,14 @@ pub fn examine(scope: &Scope) -> Result<Vec<Row>, StudyError> {
 fn start(setting: &Setting) -> Result<(Motion<f64>, Bodies<f64>), StudyError> {
     let (setup, bodies) = body()?;
     Ok((Motion::new(setup, &bodies, &setting.solver)?, bodies))
+}
+
+/// The figures of a formulation with a method and a number of steps, a multiple of 25.
+///
+/// # Errors
+/// A solver cannot be used.
+pub fn run_fixed(form: Form, method: Method, steps: u32) -> Result<Row, StudyError> {
+    run_setting(Setting::fixed(form, method, steps))
 }
 
 fn run_setting(setting: Setting) -> Result<Row, StudyError> {
@@ -131,10 +153,10 @@ fn observe(setting: &Setting) -> Result<Result<[f64; 3], OdeError<MotionError>>,
     Ok(Ok(drifts))
 }
 
-/// The settings that are timed: steps of 0.01 s, and of each way the least work for each error.
-fn asked_for(rows: &[Row]) -> Vec<usize> {
+/// The settings that are timed: the standard steps, and of each way the least work for each error.
+fn asked_for(rows: &[Row], standard_steps: u32) -> Vec<usize> {
     let is_standard =
-        |row: &Row| row.setting.tolerance.is_none() && row.setting.steps.is_none_or(|n| n == STANDARD_STEPS);
+        |row: &Row| row.setting.tolerance.is_none() && row.setting.steps.is_none_or(|n| n == standard_steps);
     let mut asked: Vec<usize> = (0..rows.len()).filter(|index| is_standard(&rows[*index])).collect();
     let mut ways: Vec<String> = rows.iter().map(|row| row.setting.way()).collect();
     ways.sort();
@@ -156,21 +178,24 @@ fn asked_for(rows: &[Row]) -> Vec<usize> {
 
 /// What the times of formulations are compared by, beside those of single rows.
 pub(super) struct Timed {
+    /// As in the scope.
+    pub(super) standard_steps: u32,
     /// Rounds of timing.
     pub(super) rounds: usize,
-    /// RK4 with steps of 0.01 s in each formulation over that in quaternions, in the order of [`Form::ALL`].
+    /// RK4 with standard steps in each formulation over that in quaternions, in the order of [`Form::ALL`].
     pub(super) over_quaternion: Vec<Ratio>,
     /// The plain RK4, a step, ns.
     pub(super) plain_ns: f64,
 }
 
 /// Times rows, in as many rounds as a budget allows.
-pub(super) fn time(rows: &mut [Row], budget: Duration) -> Timed {
+pub(super) fn time(rows: &mut [Row], scope: &Scope) -> Timed {
+    let Scope { standard_steps, budget, .. } = *scope;
     /// So that the clock and the scheduler do not count; see [`Effort`].
     const SAMPLE: Duration = Duration::from_micros(300);
-    /// Bounds of the rounds: a median, and more than anyone needs.
-    const ROUNDS: (u32, u32) = (5, 101);
-    let asked = asked_for(rows);
+    /// Bounds of the rounds: one at all, and more than anyone needs.
+    const ROUNDS: (u32, u32) = (1, 101);
+    let asked = asked_for(rows, standard_steps);
     let again = |index: usize| {
         // It has arrived before, and does so again.
         if let Ok((mut motion, mut bodies)) = start(&rows[index].setting) {
@@ -182,7 +207,7 @@ pub(super) fn time(rows: &mut [Row], budget: Duration) -> Timed {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 101")]
     let rounds = (fit as u32).max(ROUNDS.0) as usize;
     let by_hand = || {
-        std::hint::black_box(plain::run());
+        std::hint::black_box(plain::run(standard_steps));
     };
     let passes: Vec<_> = asked.iter().map(|index| move || again(*index)).collect();
     let mut rivals: Vec<&dyn Fn()> = passes.iter().map(|pass| pass as &dyn Fn()).collect();
@@ -191,17 +216,17 @@ pub(super) fn time(rows: &mut [Row], budget: Duration) -> Timed {
     let standard = |form: Form| {
         let is_it = |index: &usize| {
             let setting = &rows[*index].setting;
-            setting.form == form.name() && setting.method == Method::Rk4.name() && setting.steps == Some(STANDARD_STEPS)
+            setting.form == form.name() && setting.method == Method::Rk4.name() && setting.steps == Some(standard_steps)
         };
         asked.iter().position(is_it).unwrap_or(plain)
     };
     let over_quaternion =
         Form::ALL.into_iter().map(|form| samples.ratio(standard(form), standard(Form::Quaternion))).collect();
-    let plain_ns = samples.timing(plain).median_ns / f64::from(STANDARD_STEPS);
+    let plain_ns = samples.timing(plain).median_ns / f64::from(standard_steps);
     for (rival, index) in asked.into_iter().enumerate() {
         if let Outcome::Done(figures) = &mut rows[index].outcome {
             figures.time = Some(Time { timing: samples.timing(rival), ratio: samples.ratio(rival, plain) });
         }
     }
-    Timed { rounds, over_quaternion, plain_ns }
+    Timed { standard_steps, rounds, over_quaternion, plain_ns }
 }

@@ -14,8 +14,8 @@ mod row;
 mod sentence;
 mod traits;
 
-pub use case::{END_S, STANDARD_STEPS, reference};
-pub use measure::{Scope, examine};
+pub use case::{END_S, reference};
+pub use measure::{Scope, examine, run_fixed};
 pub use report::FormulationReport;
 pub use row::{Figures, Outcome, Row, Setting, Time};
 pub use traits::{Traits, lines_of_code, traits};
@@ -45,13 +45,8 @@ pub fn run_scope(
     progress("a free body in every formulation");
     let mut rows = examine(scope)?;
     progress("times");
-    let timed = measure::time(&mut rows, scope.budget);
+    let timed = measure::time(&mut rows, scope);
     let report = FormulationReport::new(Provenance::gather(command), rows, timed)?;
     report.write(out)?;
     Ok(report)
-}
-
-/// How far the plain RK4 ends from the reference, rad.
-fn plain_error_rad() -> f64 {
-    case::angle_between(plain::run(), reference())
 }

@@ -1,7 +1,8 @@
 //! The figures of the study of formulations as tables, as Markdown and as JSON.
 
-use super::case::{END_S, STANDARD_STEPS};
+use super::case::{END_S, angle_between, reference};
 use super::measure::{TARGETS_RAD, Timed};
+use super::plain;
 use super::row::{Figures, Row};
 use super::sentence;
 use super::traits::{Between, Traits, between, traits};
@@ -41,8 +42,12 @@ pub struct FormulationReport {
     pub end_s: f64,
     /// Samples of each time; none before times are measured.
     pub rounds: usize,
+    /// The steps that are compared step by step.
+    pub standard_steps: u32,
     /// A step of the plain RK4, ns.
     pub plain_step_ns: f64,
+    /// Where it ends, from the reference, rad.
+    pub plain_error_rad: f64,
     /// What to pick.
     pub verdict: String,
     /// Form by form.
@@ -73,7 +78,9 @@ impl FormulationReport {
             provenance,
             end_s: END_S,
             rounds: timed.rounds,
+            standard_steps: timed.standard_steps,
             plain_step_ns: timed.plain_ns,
+            plain_error_rad: angle_between(plain::run(timed.standard_steps), reference()),
             verdict: String::new(),
             over_quaternion: over.map(|(form, ratio)| OverQuaternion { form: form.name(), ratio }).collect(),
             traits: traits()?,
@@ -84,14 +91,14 @@ impl FormulationReport {
         Ok(report)
     }
 
-    /// A method with steps of 0.01 s, or without steps.
+    /// A method with standard steps, or without steps.
     #[must_use]
     pub fn standard(&self, method: &str, form: &str) -> Option<&Row> {
         self.standards().find(|row| row.setting.method == method && row.setting.form == form)
     }
 
     fn standards(&self) -> impl Iterator<Item = &Row> {
-        let is_it = |steps: Option<u32>| steps.is_none_or(|steps| steps == STANDARD_STEPS);
+        let is_it = |steps: Option<u32>| steps.is_none_or(|steps| steps == self.standard_steps);
         self.rows.iter().filter(move |row| row.setting.tolerance.is_none() && is_it(row.setting.steps))
     }
 
@@ -191,8 +198,9 @@ impl FormulationReport {
     #[must_use]
     pub fn text(&self) -> String {
         format!(
-            "{CASE} Plain RK4: {} ns a step.\n\n{}\n{}\n{}\n{}\n{}\n\n{}\n",
+            "{CASE} Plain RK4: {} ns a step, {:.1e} rad off.\n\n{}\n{}\n{}\n{}\n{}\n\n{}\n",
             rounded(self.plain_step_ns),
+            self.plain_error_rad,
             self.form_table().text(),
             self.step_table().text(),
             self.cost_table().text(),
@@ -215,7 +223,7 @@ impl FormulationReport {
             self.form_table().markdown(),
             self.between_text(),
             self.step_table().markdown(),
-            format_args!("{:.1e}", super::plain_error_rad()),
+            format_args!("{:.1e}", self.plain_error_rad),
             self.cost_table().markdown(),
             self.provenance.text().replace('\n', "; "),
         )

@@ -3,8 +3,9 @@
 use super::measure::TARGETS_RAD;
 use super::report::{FormulationReport, ratio_cell};
 use super::row::Row;
-use crate::rigid::Method;
+use crate::rigid::{Form, Method};
 use crate::study::rounded;
+use crate::study::timing::Ratio;
 
 /// Methods that take any force; the others take free bodies, or forces as kicks between free motions.
 const FOR_ANY_FORCE: [Method; 5] = [Method::Rk4, Method::Tsit5, Method::Dop853, Method::Rkmk4, Method::CommutatorFree];
@@ -29,20 +30,32 @@ pub(super) fn verdict(report: &FormulationReport) -> String {
     sentences.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
+/// RK4 of a formulation over RK4 in quaternions.
+fn over(report: &FormulationReport, form: Form) -> Option<Ratio> {
+    report.over_quaternion.iter().find(|it| it.form == form.name()).map(|it| it.ratio)
+}
+
+/// A step of RK4 that is longer by less than this is not worth giving up what only rotors have: exact free motion, splittings,
+/// exponentials.
+const WORTH: f64 = 1.1;
+
+/// The rotor, unless a step in quaternions is measurably and worthwhile shorter.
+fn picked(report: &FormulationReport) -> Form {
+    if over(report, Form::Rotor).is_some_and(|ratio| ratio.low <= WORTH) { Form::Rotor } else { Form::Quaternion }
+}
+
 /// Rotor and motor beside the quaternion, and the matrix's drift.
 fn forms(report: &FormulationReport) -> Option<String> {
-    let over = |form: &str| report.over_quaternion.iter().find(|it| it.form == form).map(|it| it.ratio);
-    let (rotor, motor, matrix) = (over("rotor")?, over("motor")?, over("matrix")?);
-    let pick =
-        if rotor.low <= 1.0 { "Pick the rotor form" } else { "Pick the quaternion form where only steps of RK4 count" };
-    let standard = |form: &str| report.standard("rk4", form).and_then(Row::figures);
-    let (drifted, kept) = (standard("matrix")?, standard("rotor")?);
+    let [matrix, rotor, motor] = [Form::Matrix, Form::Rotor, Form::Motor].map(|form| over(report, form));
+    let standard = |form: Form| report.standard("rk4", form.name()).and_then(Row::figures);
+    let (drifted, kept) = (standard(Form::Matrix)?, standard(Form::Rotor)?);
     Some(format!(
-        "{pick}: a step of RK4 in rotors takes {} of the time in quaternions, in motors {}, in matrices {}; the matrix is \
-         then {:.0e} from a rotation, the rotor {:.0e}.",
-        rounded(rotor.value),
-        rounded(motor.value),
-        rounded(matrix.value),
+        "Pick the {} form: a step of RK4 in rotors takes {} of the time in quaternions, in motors {}, in matrices {}; after \
+         100 s the matrix is {:.0e} from a rotation, the rotor {:.0e}.",
+        picked(report).name(),
+        rounded(rotor?.value),
+        rounded(motor?.value),
+        rounded(matrix?.value),
         drifted.norm_drift,
         kept.norm_drift
     ))
@@ -63,24 +76,17 @@ fn free(report: &FormulationReport) -> Option<String> {
     ))
 }
 
-/// Under any force.
+/// Under any force, in the form that is picked.
 fn any_force(report: &FormulationReport) -> Option<String> {
-    let picks: Vec<String> = TARGETS_RAD
-        .into_iter()
-        .filter_map(|target| Some(format!("{target:.0e} rad {}", named(report.cheapest(target, takes_any_force)?))))
-        .collect();
-    let beside = |method: Method| {
-        let ratio = |target| report.cheapest(target, |row| row.setting.method == method.name())?.ratio();
-        TARGETS_RAD.into_iter().rev().find_map(ratio)
-    };
-    let group = [Method::Rkmk4, Method::CommutatorFree].into_iter().filter_map(beside).map(|ratio| ratio.value);
-    let best = TARGETS_RAD.map(|target| report.cheapest(target, takes_any_force).map(|row| row.setting.method));
-    let won = best.iter().flatten().any(|method| ["rkmk4", "commutator_free"].contains(method));
-    let group = match (won, group.reduce(f64::min)) {
-        (false, Some(_)) => {
-            " Exponentials win nowhere here: they keep versors on the group, which renormalising does for less."
-        }
-        _ => "",
+    let form = picked(report);
+    let among = |row: &Row| takes_any_force(row) && row.setting.form == form.name();
+    let best = TARGETS_RAD.map(|target| (target, report.cheapest(target, among)));
+    let picks: Vec<String> =
+        best.iter().filter_map(|(target, row)| Some(format!("{target:.0e} rad {}", named((*row)?)))).collect();
+    let on_group = |row: &Row| [Method::Rkmk4, Method::CommutatorFree].iter().any(|it| it.name() == row.setting.method);
+    let group = match best.iter().any(|(_, row)| row.is_some_and(on_group)) {
+        true => "",
+        false => " Exponentials win nowhere here: renormalising keeps versors on the group for less.",
     };
     (!picks.is_empty())
         .then(|| format!("Where forces may be any, the cheapest within {}.{group}", picks.join(", within ")))
