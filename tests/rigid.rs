@@ -276,6 +276,50 @@ fn steps_by_a_tolerance_do_not_cross_the_end_of_a_force() {
     }
 }
 
+#[test]
+fn a_tumbling_needle_is_no_fast_spin_and_a_split_one_is_told() {
+    // |L| / I_min is 1e4 rad/s, but nothing of it is along the axis of the smallest moment.
+    let advance = |method: Method| {
+        let (mut bodies, inertias) = spinning(1.0, [1e-4, 1.0, 1.0], [0.0, 1.0, 0.0]);
+        let setup = Setup { inertias, ..Setup::default() };
+        let mut motion = Motion::new(setup, &bodies, &Solver::fixed(method, 0.01)).unwrap();
+        (0..100).try_for_each(|step| motion.advance(&mut bodies, f64::from(step) * 0.01, 0.01)).map(|()| bodies)
+    };
+    let image = advance(Method::Rk4).unwrap().rotor[0].apply(Vector::new(1.0, 0.0, 0.0));
+    // About +y by the right-hand rule: e1 goes towards -e3.
+    assert!((image - Vector::new(1.0_f64.cos(), 0.0, -1.0_f64.sin())).norm_sq().sqrt() < 1e-9, "{image:?}");
+    let refused = advance(Method::Splitting4);
+    assert!(matches!(refused, Err(OdeError::System(MotionError::Spin { .. }))), "{refused:?}");
+}
+
+#[test]
+fn a_body_that_goes_round_many_times_a_step_keeps_its_unit_rotor() {
+    for moments in [[1.0, 1.0, 1.0], [1.0, 1.0, 1.0 + 1e-9], [1.0, 2.0, 2.5]] {
+        let (mut bodies, inertias) = spinning(1.0, moments, [300.0, 500.0, 400.0]);
+        let setup = Setup { inertias, ..Setup::default() };
+        let mut motion = Motion::new(setup, &bodies, &Solver::fixed(Method::Verlet, 0.01)).unwrap();
+        (0..2000).for_each(|step| motion.advance(&mut bodies, f64::from(step) * 0.01, 0.01).unwrap());
+        assert!(bodies.rotor[0].is_unit(4.0 * f64::EPSILON), "{moments:?}: {:?}", bodies.rotor[0]);
+    }
+}
+
+#[test]
+fn steps_by_a_tolerance_are_as_many_beside_other_bodies_as_alone() {
+    let (start, inertias, forces) = thrown();
+    let setup = Setup { inertias, forces, joints: vec![] };
+    let tolerance = ga_physics::ode::Tolerance { rtol: 1e-9, atol: 1e-9 };
+    let by_tolerance = Solver::fixed(Method::Dop853, 0.1).with_steps(Steps::Adaptive { tolerance });
+    let steps = |lists: &[(Solver, Vec<usize>)]| {
+        let (mut bodies, mut motion) = (start.clone(), Motion::mixed(setup.clone(), &start, lists).unwrap());
+        (0..100).for_each(|frame| motion.advance(&mut bodies, f64::from(frame) * 0.01, 0.01).unwrap());
+        motion.work().accepted
+    };
+    let flight = Solver::fixed(Method::FreeFlight, 0.01);
+    let (alone, beside) = (steps(&[(by_tolerance, vec![1])]), steps(&[(by_tolerance, vec![1]), (flight, vec![0])]));
+    assert_eq!(beside, alone + 100, "a hundred evaluations of the flight");
+    assert!(alone < 60, "{alone} steps: one begins where the last ended, not at each frame");
+}
+
 /// Two bodies of unlike inertia, thrown and spinning, in gravity.
 fn thrown() -> (Bodies<f64>, Vec<Inertia<f64>>, Forces<f64>) {
     let (mut bodies, mut inertias) = spinning(1.0, [1.0, 2.0, 2.5], [0.3, 2.0, 0.1]);

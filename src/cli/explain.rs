@@ -54,8 +54,8 @@ fn bodies<T: Real>(error: &OdeError<rigid::MotionError>, joints: &[rigid::Joint<
              smaller `dt_s`, or let the steps be chosen (`solver.rtol`)"
         ),
         OdeError::System(rigid::MotionError::Spin { body_idx, time_s, turn_rad, dt_s }) => format!(
-            "body `{}` turns by {turn_rad:.1e} rad in a step of {dt_s} s at {time_s:.6} s, too far for a Runge-Kutta method; \
-             take a smaller `dt_s`, or `solver.method = \"yoshida4\"`, which moves free bodies exactly",
+            "body `{}` turns by {turn_rad:.1e} rad in a step of {dt_s} s at {time_s:.6} s, too far for the method; \
+             take a smaller `dt_s`, or in the rotor form `solver.method = \"yoshida4\"`, which moves free bodies exactly",
             names[*body_idx]
         ),
         OdeError::System(rigid::MotionError::Orientation { time_s, source }) => {

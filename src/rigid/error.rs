@@ -34,8 +34,9 @@ pub enum MotionError {
     },
     /// Too fast a spin for the step.
     #[error(
-        "at {time_s} s body {body_idx} turns by {turn_rad:e} rad in a step of {dt_s} s, too far for a Runge-Kutta method: \
-         take a smaller `dt_s`, or a method on the exact free motion (`verlet`, `yoshida4`, `yoshida6`)"
+        "at {time_s} s body {body_idx} turns by {turn_rad:e} rad in a step of {dt_s} s, too far for the \
+         method: take a smaller `dt_s`, or in the rotor form a method on the exact free motion (`verlet`, `yoshida4`, \
+         `yoshida6`)"
     )]
     Spin {
         /// The body.

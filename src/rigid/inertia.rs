@@ -17,7 +17,9 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum InertiaError {
     /// Not positive or not finite.
-    #[error("mass {0} kg: a mass is positive and finite; make the body `fixed` to hold it in place")]
+    #[error(
+        "mass {0:?} kg: a mass is positive and finite, also its inverse and in the scalar that is computed with; make the body `fixed` to hold it in place"
+    )]
     Mass(f64),
     /// A number that is not finite, or rows and columns that differ.
     #[error("the inertia {0:?} kg m² is not symmetric and finite; its off-diagonals are -∫xy dm")]
@@ -76,6 +78,7 @@ impl<T: Real> Inertia<T> {
         let matrix = Matrix3::from_fn(|row, column| inertia_kg_m2[row][column]);
         let inverse = matrix.cholesky().map(|factor| factor.inverse());
         let inverse = inverse.filter(|inverse| inverse.iter().all(|x| T::from_f64(*x).is_finite()));
+        let inverse = inverse.filter(|_| principal.moments.iter().all(|x| T::from_f64(*x).is_finite()));
         let inverse = inverse.ok_or(InertiaError::Singular(inertia_kg_m2))?;
         let cast =
             |f: &dyn Fn(usize, usize) -> f64| core::array::from_fn(|r| core::array::from_fn(|c| T::from_f64(f(r, c))));

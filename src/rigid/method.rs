@@ -124,6 +124,12 @@ impl Method {
         }
     }
 
+    /// Does it split the free motion into rotations about axes?
+    #[must_use]
+    pub const fn splits(self) -> bool {
+        matches!(self, Self::Splitting2 | Self::Splitting4 | Self::Splitting6)
+    }
+
     /// Can it integrate this formulation?
     #[must_use]
     pub const fn fits(self, form: Form) -> bool {

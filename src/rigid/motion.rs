@@ -11,8 +11,7 @@ use super::{
 use crate::algebra::Real;
 use crate::ode::lie::{CommutatorFree4, LieRungeKutta, LieState, LieStepper, Rkmk4};
 use crate::ode::{
-    Adaptive, CashKarp, Composition, Dop853, OdeError, Rk4, Rk4Doubling, RungeKutta, State, StepError, Tolerance,
-    Tsit5, Work,
+    Adaptive, CashKarp, Composition, Dop853, OdeError, Rk4, Rk4Doubling, RungeKutta, StepError, Tolerance, Tsit5, Work,
 };
 use alloc::boxed::Box;
 use alloc::vec;
@@ -25,6 +24,8 @@ struct Part<T: Real> {
     method: Box<dyn Advance<T>>,
     /// Which bodies; all of them where there is one part.
     bodies: Vec<usize>,
+    /// These bodies where they are, the others where they were at the start.
+    state: Bodies<T>,
 }
 
 /// Bodies that move: takes any state of theirs over any span of time.
@@ -36,8 +37,6 @@ pub struct Motion<T: Real> {
     parts: Vec<Part<T>>,
     /// One entry a body.
     forms: Vec<Form>,
-    start: Bodies<T>,
-    moved: Bodies<T>,
 }
 
 impl<T: Real> Motion<T> {
@@ -76,9 +75,9 @@ impl<T: Real> Motion<T> {
                 Form::Motor => on_group::<motor::State<T>, T>(bodies, solver)?,
             };
             own.iter().for_each(|body_idx| forms[*body_idx] = solver.form);
-            parts.push(Part { system, method, bodies: own.clone() });
+            parts.push(Part { system, method, bodies: own.clone(), state: bodies.clone() });
         }
-        Ok(Self { setup, parts, forms, start: bodies.clone(), moved: bodies.clone() })
+        Ok(Self { setup, parts, forms })
     }
 
     /// Takes bodies from a time over a span, s, in pieces between the times at which forces switch.
@@ -89,16 +88,16 @@ impl<T: Real> Motion<T> {
         if let [all] = self.parts.as_mut_slice() {
             return all.advance(bodies, t_s, span_s);
         }
-        self.start.assign(bodies);
         for part in &mut self.parts {
-            self.moved.assign(&self.start);
-            part.advance(&mut self.moved, t_s, span_s).map_err(|error| match error {
+            let mut state = core::mem::take(&mut part.state);
+            part.bodies.iter().for_each(|body_idx| state.assign_body(*body_idx, bodies));
+            let done = part.advance(&mut state, t_s, span_s);
+            part.bodies.iter().for_each(|body_idx| bodies.assign_body(*body_idx, &state));
+            part.state = state;
+            done.map_err(|error| match error {
                 OdeError::System(error) => OdeError::System(error.renumbered(|joint| part.joint(&self.setup, joint))),
                 error => error,
             })?;
-            for body_idx in &part.bodies {
-                bodies.assign_body(*body_idx, &self.moved);
-            }
         }
         Ok(())
     }
@@ -223,7 +222,7 @@ where
         (Method::FreeFlight, _) => Ok(Box::new(Flight::new())),
         (method, Steps::Fixed { dt_s }) if method.composition().is_some() => {
             let composition = method.composition().unwrap_or(Composition::Verlet);
-            Ok(Box::new(Composed::new(composition, bodies.len(), fixed_step(dt_s)?)))
+            Ok(Box::new(Composed::new(composition, method.splits(), bodies.len(), fixed_step(dt_s)?)))
         }
         (Method::Rkmk4, Steps::Fixed { dt_s }) => {
             let make = LieRungeKutta::<Rkmk4, F, T>::new;

@@ -40,26 +40,42 @@ fn divide(t_s: f64, span_s: f64, dt_s: f64) -> (u64, f64) {
     (count, span_s / count as f64)
 }
 
-/// The largest turn in a step of a Runge-Kutta method, rad, of the body or of its angular velocity within it. RK4 is stable to
-/// 2.8 and errs by `(1/2)^5 / 120` here, 3e-4 rad a step.
+/// The largest turn in a step of a Runge-Kutta method or of a splitting, rad, of the body or of its angular velocity within
+/// it. RK4 is stable to 2.8 and errs by `(1/2)^5 / 120` here, 3e-4 rad a step.
 const MAX_TURN_RAD: f64 = 1.0;
 
-/// Refuses steps in which a body turns too far, or its momentum in the body frame, which goes round at up to `|L| / I_min`.
+/// Refuses steps in which a body turns too far by its `rate`, rad/s.
 fn check_turns<T: Real>(
     bodies: &Bodies<T>,
     inertias: &[Inertia<T>],
-    time_s: f64,
-    dt_s: f64,
-) -> Result<(), MotionError> {
+    (time_s, dt_s): (f64, f64),
+    rate: fn([f64; 3], [f64; 3]) -> f64,
+) -> Result<(), OdeError<MotionError>> {
     for (body_idx, inertia) in inertias.iter().enumerate().filter(|(_, inertia)| !inertia.is_immovable()) {
-        let momentum = bodies.angular_momentum[body_idx].map(Real::to_f64).norm_sq().sqrt();
-        let turn_rad = dt_s.abs() * momentum / inertia.principal.moments[0];
-        // For a slender body that spins about its long axis this is its spin; for one that tumbles it is far more.
+        let to_principal = (bodies.rotor[body_idx].map(Real::to_f64) * inertia.principal.axes).rev();
+        let momentum = to_principal.apply(bodies.angular_momentum[body_idx].map(Real::to_f64));
+        let turn_rad = dt_s.abs() * rate(momentum.into(), inertia.principal.moments);
         if !(turn_rad <= MAX_TURN_RAD) {
-            return Err(MotionError::Spin { body_idx, time_s, turn_rad, dt_s });
+            return Err(OdeError::System(MotionError::Spin { body_idx, time_s, turn_rad, dt_s }));
         }
     }
     Ok(())
+}
+
+/// The angular velocity or, if that is more, the rate at which it wobbles about where it is: the eigenvalues of Euler's
+/// equations `Li' = ci Lj Lk`, linearised, are at most `sqrt(c2 c3 L1² + c3 c1 L2² + c1 c2 L3²)`.
+fn turn_or_wobble(momentum: [f64; 3], moments: [f64; 3]) -> f64 {
+    let [b1, b2, b3] = moments.map(f64::recip);
+    let [l1, l2, l3] = momentum;
+    let spin = (b1 * l1).hypot(b2 * l2).hypot(b3 * l3);
+    let (c1, c2, c3) = (b2 - b3, b1 - b3, b1 - b2);
+    spin.max((c2 * c3).sqrt() * l1.abs()).max((c3 * c1).sqrt() * l2.abs()).max((c1 * c2).sqrt() * l3.abs())
+}
+
+/// What a splitting turns by: the parts of a step leave the momentum along any of the axes, that of the smallest moment too.
+fn any_axis(momentum: [f64; 3], moments: [f64; 3]) -> f64 {
+    let [l1, l2, l3] = momentum;
+    l1.hypot(l2).hypot(l3) / moments[0]
 }
 
 /// A method with its storage, that makes single steps.
@@ -119,7 +135,7 @@ where
         span_s: f64,
     ) -> Result<(), OdeError<MotionError>> {
         let (count, h_s) = divide(t_s, span_s, self.dt_s);
-        check_turns(bodies, &system.setup.inertias, t_s, h_s).map_err(OdeError::System)?;
+        check_turns(bodies, &system.setup.inertias, (t_s, h_s), turn_or_wobble)?;
         self.state.read_from(bodies);
         for index in 0..count {
             let start_s = t_s + h_s * index as f64;
@@ -207,14 +223,16 @@ pub(super) struct Composed<T> {
     composition: Composition,
     first: Wrenches<T>,
     last: Wrenches<T>,
+    /// The free motion is split into rotations, which must be short.
+    splits: bool,
     dt_s: f64,
     work: Work,
 }
 
 impl<T: Real> Composed<T> {
-    pub(super) fn new(composition: Composition, bodies: usize, dt_s: f64) -> Self {
+    pub(super) fn new(composition: Composition, splits: bool, bodies: usize, dt_s: f64) -> Self {
         let wrenches = Wrenches::zeros(bodies);
-        Self { composition, first: wrenches.clone(), last: wrenches, dt_s, work: Work::default() }
+        Self { composition, first: wrenches.clone(), last: wrenches, splits, dt_s, work: Work::default() }
     }
 }
 
@@ -227,6 +245,9 @@ impl<T: Real> Advance<T> for Composed<T> {
         span_s: f64,
     ) -> Result<(), OdeError<MotionError>> {
         let (count, h_s) = divide(t_s, span_s, self.dt_s);
+        if self.splits {
+            check_turns(bodies, &system.setup.inertias, (t_s, h_s), any_axis)?;
+        }
         system.wrenches(bodies, &mut self.first);
         for index in 0..count {
             let start_s = t_s + h_s * index as f64;

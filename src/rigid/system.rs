@@ -4,7 +4,7 @@
 //! motion of all bodies: exact, or split into rotations about the principal axes.
 
 use super::{
-    Bodies, Forces, Formulation, Held, Inertia, Joint, JointError, Method, MotionError, Solver, SolverError, Wrenches,
+    Bodies, Forces, Formulation, Held, Inertia, Joint, JointError, MotionError, Solver, SolverError, Wrenches,
     axis_splitting, free,
 };
 use crate::algebra::Real;
@@ -89,10 +89,7 @@ impl<T: Real> System<T> {
     pub fn new(setup: Setup<T>, start: &Bodies<T>, solver: &Solver) -> Result<Self, JointError> {
         let held = Held::new(&setup.joints, start, &setup.inertias, solver.violation)?;
         let wrenches = Wrenches::zeros(setup.inertias.len());
-        let turn = match solver.method {
-            Method::Splitting2 | Method::Splitting4 | Method::Splitting6 => axis_splitting::turn,
-            _ => free::turn,
-        };
+        let turn = if solver.method.splits() { axis_splitting::turn } else { free::turn };
         let mut system = Self { setup, acting: Vec::new(), wrenches, held, turn, before: start.clone(), redirected: 0 };
         system.select(0.0, 0.0);
         Ok(system)

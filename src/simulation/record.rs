@@ -62,7 +62,7 @@ pub struct EnergySample {
     pub totals: Totals,
 }
 
-/// The largest relative departures from the start: see `summary.json`. `None` where the denominator is zero.
+/// The largest relative departures from the start: see `summary.json`. `None` where the denominator is zero, or rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Drifts {
     /// max|E - E0| / max(kinetic energy).
@@ -141,8 +141,11 @@ impl Record {
     #[must_use]
     pub fn drifts(&self) -> Drifts {
         let relative = |error: f64, scale: f64| (scale > 0.0).then(|| error / scale);
+        // A kinetic energy below the rounding of the sum is that of bodies that are held still.
+        let energy = self.start.as_ref().map_or(0.0, |start| start.energy().abs());
+        let moves = self.kinetic_scale > f64::EPSILON * energy;
         Drifts {
-            energy: relative(self.energy_error, self.kinetic_scale),
+            energy: relative(self.energy_error, self.kinetic_scale).filter(|_| moves),
             momentum: relative(self.momentum_error, self.momentum_scale),
             angular_momentum: relative(self.angular_momentum_error, self.angular_momentum_scale),
         }

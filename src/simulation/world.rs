@@ -220,6 +220,7 @@ impl<T: Real> World<T> {
             <[f64; 3]>::from(bodies.position[body_idx]).iter().all(|x| x.is_finite())
                 && <[T; 3]>::from(bodies.momentum[body_idx]).iter().all(|x| x.is_finite())
                 && <[T; 3]>::from(bodies.angular_momentum[body_idx]).iter().all(|x| x.is_finite())
+                && <[T; 4]>::from(bodies.rotor[body_idx]).iter().all(|x| x.is_finite())
         };
         match (0..bodies.len()).find(|body_idx| !finite(*body_idx)) {
             Some(body_idx) => Err(SimulationError::OutOfRange { body_idx, time_s }),

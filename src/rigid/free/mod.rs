@@ -167,8 +167,10 @@ pub fn turn<T: Real>(inertia: &Inertia<T>, rotor: Rotor<T>, angular_momentum: Bi
     let turned = axes.apply(Bivector::new(change.e23, change.e31, change.e12));
     let change = Even::new(change.s, turned.e23, turned.e31, turned.e12);
     let start = Even::from(start);
-    let change = start * change + start * (0.5 * (1.0 - start.norm_sq()));
-    let end = start + change;
+    let turned = start * change;
+    // What the start lacks of unit length is given to the end: given to the start's own direction it would grow in steps of
+    // more than a half turn.
+    let end = start + (turned + (start + turned) * (0.5 * (1.0 - start.norm_sq())));
     Rotor::new(end.s, end.e23, end.e31, end.e12).map(T::from_f64)
 }
 
