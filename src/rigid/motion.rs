@@ -17,6 +17,10 @@ use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 
+/// Steps by a tolerance from one state that is asked for to the next, at most: a few seconds of work for a body. What needs
+/// more is too stiff for these methods, or the tolerance is.
+const MAX_STEPS: u64 = 1_000_000;
+
 /// Bodies that are solved alike.
 struct Part<T: Real> {
     /// Of these bodies; the others stand still in it.
@@ -236,7 +240,7 @@ where
             let start = F::from_bodies(bodies);
             let rates = start.zero_rates();
             let stepper = LieStepper::<CommutatorFree4, F, T>::adaptive(0.0, start, rates, in_scalar(tolerance))?;
-            Ok(Box::new(AdaptiveSteps::<_, F, T>::new(stepper, bodies)))
+            Ok(Box::new(AdaptiveSteps::<_, F, T>::new(stepper.with_max_steps(MAX_STEPS), bodies)))
         }
         _ => linear::<F, T>(bodies, solver),
     }
@@ -259,7 +263,7 @@ where
             let start = F::from_bodies(bodies);
             let rates = start.zero_rates();
             let stepper = Adaptive::<$method, F, T>::new(0.0, start, rates, in_scalar($tolerance))?;
-            Box::new(AdaptiveSteps::<_, F, T>::new(stepper, bodies))
+            Box::new(AdaptiveSteps::<_, F, T>::new(stepper.with_max_steps(MAX_STEPS), bodies))
         }};
     }
     Ok(match (solver.method, solver.steps) {

@@ -215,12 +215,18 @@ impl<T: Real> World<T> {
 
     /// No state that is not finite may become the good one.
     fn check_range(&self, time_s: f64) -> Result<(), SimulationError> {
-        let bodies = &self.trial;
+        let (bodies, inertias) = (&self.trial, self.motion.inertias());
+        // Squares, because energies are made of them.
         let finite = |body_idx: usize| {
-            <[f64; 3]>::from(bodies.position[body_idx]).iter().all(|x| x.is_finite())
-                && <[T; 3]>::from(bodies.momentum[body_idx]).iter().all(|x| x.is_finite())
-                && <[T; 3]>::from(bodies.angular_momentum[body_idx]).iter().all(|x| x.is_finite())
-                && <[T; 4]>::from(bodies.rotor[body_idx]).iter().all(|x| x.is_finite())
+            let inertia = &inertias[body_idx];
+            let squares = bodies.velocity(body_idx, inertia).norm_sq()
+                + bodies.momentum[body_idx].norm_sq()
+                + bodies.angular_momentum[body_idx].norm_sq()
+                + bodies.omega_body(body_idx, inertia).norm_sq();
+            let orientation: [T; 4] = bodies.rotor[body_idx].into();
+            bodies.position[body_idx].position().norm_sq().is_finite()
+                && squares.is_finite()
+                && orientation.iter().all(|x| x.is_finite())
         };
         match (0..bodies.len()).find(|body_idx| !finite(*body_idx)) {
             Some(body_idx) => Err(SimulationError::OutOfRange { body_idx, time_s }),
