@@ -51,11 +51,18 @@ pub fn free_body(out: &mut impl Write, rounds: usize) -> Result<()> {
         (Method::Verlet, STEPS),
         (Method::Verlet, 100),
     ] {
-        ways.push((format!("ga-physics rotor {}, {steps} steps", method.name()), steps, ours(Form::Rotor, method, steps)));
+        ways.push((
+            format!("ga-physics rotor {}, {steps} steps", method.name()),
+            steps,
+            ours(Form::Rotor, method, steps),
+        ));
     }
     let times = Rounds::take(ways.len(), rounds, |way| time_call(|| drop((ways[way].2)())));
     writeln!(out, "\nA free body of moments 1, 2, 3, spun about its middle axis, 100 s:")?;
-    writeln!(out, "\n| way | attitude error at 100 s (rad) | CPU ns per step | over rapier | over the hand-written RK4 |")?;
+    writeln!(
+        out,
+        "\n| way | attitude error at 100 s (rad) | CPU ns per step | over rapier | over the hand-written RK4 |"
+    )?;
     writeln!(out, "|---|---:|---:|---:|---:|")?;
     for (i, (name, steps, run)) in ways.iter().enumerate() {
         let error = run().map_or_else(|error| error, |end| format!("{:.1e}", error_rad(end)));
