@@ -44,7 +44,8 @@ pub struct Motion<T: Real> {
 }
 
 impl<T: Real> Motion<T> {
-    /// All bodies solved alike.
+    /// All bodies solved alike. Joints must be held at the start; velocities that they contradict change in the first step:
+    /// see [`project_velocities`](Self::project_velocities).
     ///
     /// # Errors
     /// A method that does not fit, a step or tolerance that cannot be used.
