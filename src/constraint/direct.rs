@@ -12,6 +12,7 @@
 //! and are 2 to 800 times slower on small systems. Supernodal ones win from about 20000 rows on, by 2 to 3.
 
 use super::normal::{self, Normal};
+use super::redundant::Apart;
 use super::rows::narrow;
 use super::{InverseMass, Rows, SolveError, Solved};
 use alloc::vec;
@@ -27,7 +28,8 @@ const LOSS_TO_REFINE: f64 = 1e-6;
 /// that. A row whose pivot is less is taken for redundant: nobody could tell.
 pub(super) const NOISE: f64 = 8.0 * f64::EPSILON;
 
-/// Pivots over this part of their diagonal are not examined; no v of practical size makes noise of that.
+/// Pivots over this part of their diagonal are not examined; no v of practical size makes noise of that. More where there
+/// is more than rounding.
 const SUSPECT: f64 = 1e-6;
 
 /// Each refinement gains the digits that the factor has. With three, 5 digits are enough for all 16.
@@ -53,6 +55,10 @@ pub struct Direct<const D: usize> {
     pub(super) redundant: Vec<u32>,
     /// The smallest `d_k / a_kk` that was kept.
     pub(super) weakest: f64,
+    /// What is kept of a pivot must be more than this; see [`Direct::noise`].
+    pub(super) noise: f64,
+    /// How far gradients may be off, and in which measure.
+    pub(super) apart: Apart<D>,
     /// Room for the dependences of redundant rows.
     pub(super) shares: Vec<f64>,
     filled: Vec<u32>,
@@ -112,6 +118,8 @@ impl<const D: usize> Direct<D> {
             inv_pivot: vec![1.0; n],
             redundant: Vec::with_capacity(n),
             weakest: 1.0,
+            noise: NOISE,
+            apart: Apart::default(),
             shares: Vec::new(),
             filled,
             work: vec![0.0; n],
@@ -145,6 +153,9 @@ impl<const D: usize> Direct<D> {
     /// A gradient or mass that is not finite.
     pub fn prepare(&mut self, rows: &Rows<D>, inverse_mass: &(impl InverseMass<D> + ?Sized)) -> Result<(), SolveError> {
         self.inv_pivot.fill(1.0);
+        if self.look_apart(rows)? {
+            return self.prepare_alike(rows, inverse_mass);
+        }
         self.prepare_alike(rows, inverse_mass)?;
         if self.exchange() { self.prepare_alike(rows, inverse_mass) } else { Ok(()) }
     }
@@ -163,6 +174,7 @@ impl<const D: usize> Direct<D> {
         self.normal.fill(rows, inverse_mass);
         self.redundant.clear();
         self.weakest = 1.0;
+        let suspect = SUSPECT * (self.noise / NOISE);
         let n = self.inv_pivot.len();
         self.filled.copy_from_slice(&self.column_starts[..n]);
         for k in 0..n {
@@ -172,7 +184,7 @@ impl<const D: usize> Direct<D> {
                 return Err(SolveError::NotFinite { row: self.normal.order[k] as usize });
             }
             let dropped = self.inv_pivot[k] == 0.0;
-            if dropped || (pivot <= SUSPECT * diagonal && pivot <= self.noise(k, diagonal)) {
+            if dropped || (pivot <= suspect * diagonal && pivot <= self.noise(k, diagonal)) {
                 self.inv_pivot[k] = 0.0;
                 self.redundant.push(self.normal.order[k]);
             } else {
@@ -225,7 +237,7 @@ impl<const D: usize> Direct<D> {
         for j in &self.column[before] {
             self.work[*j as usize] = 0.0;
         }
-        NOISE * sum
+        self.noise * sum
     }
 
     /// `x = A^-1 b` by the factor, with 0 for dropped rows.

@@ -65,6 +65,22 @@ impl<const D: usize> Multipliers<D> {
         }
     }
 
+    /// Says in which measure no block is lighter than others, block by block, as inverse masses: redundant rows are told
+    /// apart in it where gradients may be off ([`assume_off`](Self::assume_off)). Conjugate gradients do not tell.
+    pub fn measure_by(&mut self, inverse: Vec<[f64; D]>) {
+        if let Solver::Direct(solver) = &mut self.solver {
+            solver.measure_by(inverse);
+        }
+    }
+
+    /// Says how far gradients may be off at the next `freeze`, relative to their size, because the constraints hold only so
+    /// far. Rows that this alone tells apart are redundant. At first 0, rounding.
+    pub fn assume_off(&mut self, relative: f64) {
+        if let Solver::Direct(solver) = &mut self.solver {
+            solver.assume_off(relative);
+        }
+    }
+
     /// Takes over the gradients and factors A there.
     ///
     /// # Errors

@@ -11,7 +11,7 @@
 //! In errors the row of a constraint is the index of a joint.
 
 use super::joint::check;
-use super::jointed::{Masses, Poses, evaluate, place, unprojected, unsolved};
+use super::jointed::{Masses, Poses, equal_masses, evaluate, place, unprojected, unsolved};
 use super::link::{D, Link, Pose, Twist, join, part};
 use super::{Bodies, Formulation, Inertia, Joint, JointError, Wrenches};
 use crate::algebra::Real;
@@ -56,6 +56,7 @@ pub struct Held<T> {
     /// Where the rows were evaluated and the multipliers frozen; empty if elsewhere.
     pub(super) frozen_at: (Vec<Point<f64>>, Vec<Rotor<T>>),
     violation_m: f64,
+    smallest_m: f64,
     longest_arm_m: f64,
     /// The step of the last drift, s; 0 for none.
     pub(super) last_h_s: f64,
@@ -90,9 +91,15 @@ impl<T: Real> Held<T> {
         let pattern = links.iter().flat_map(|link| (0..link.rows()).map(|_| link.bodies()));
         let rows = Rows::new(bodies.len(), pattern);
         let masses = Masses::new(inertias);
+        let smallest_m = links.iter().map(Link::length_m).reduce(f64::min).unwrap_or(1.0);
         let arms = links.iter().flat_map(|link| [link.a.arm, link.b.arm]);
+        let multipliers = (!rows.is_empty()).then(|| {
+            let mut multipliers = Multipliers::new(&rows, &masses, Method::Direct);
+            multipliers.measure_by(equal_masses(&links, inertias));
+            multipliers
+        });
         let mut held = Self {
-            multipliers: (!rows.is_empty()).then(|| Multipliers::new(&rows, &masses, Method::Direct)),
+            multipliers,
             lambda: vec![0.0; rows.len()],
             right_side: vec![0.0; rows.len()],
             room: vec![[0.0; D]; bodies.len()],
@@ -101,7 +108,8 @@ impl<T: Real> Held<T> {
             twists: vec![Twist::default(); bodies.len()],
             before: bodies.clone(),
             frozen_at: (Vec::with_capacity(bodies.len()), Vec::with_capacity(bodies.len())),
-            violation_m: violation * links.iter().map(Link::length_m).reduce(f64::min).unwrap_or(1.0),
+            violation_m: violation * smallest_m,
+            smallest_m,
             longest_arm_m: arms.fold(0.0, |most, arm| most.max(arm.norm_sq())).sqrt(),
             last_h_s: 0.0,
             redundant: 0,
@@ -183,9 +191,12 @@ impl<T: Real> Held<T> {
         }
         self.frozen_at.0.clear();
         evaluate(&self.links, &self.poses, &mut self.rows);
+        let off = self.tolerance_m(bodies) / self.smallest_m;
         let Some(multipliers) = &mut self.multipliers else {
             return Ok(());
         };
+        // Off the joints by as much as is allowed, redundant rows depend on each other nearly.
+        multipliers.assume_off(off);
         let frozen = multipliers.freeze(&self.rows, &self.masses);
         frozen.map_err(|error| unsolved(&self.links, error))?;
         self.redundant = self.redundant.max(multipliers.redundant().len());

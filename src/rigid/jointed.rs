@@ -7,6 +7,7 @@ use super::{Bodies, Inertia};
 use crate::algebra::Real;
 use crate::algebra::g3::{Bivector, Rotor, Vector};
 use crate::constraint::{Configuration, InverseMass, ProjectionError, Rows, SolveError};
+use alloc::vec;
 use alloc::vec::Vec;
 
 /// Masses and principal moments; 0 is immovable.
@@ -61,6 +62,20 @@ impl InverseMass<D> for Masses {
     fn is_fixed(&self, block: usize) -> bool {
         self.inv_mass[block] == [0.0; D]
     }
+}
+
+/// Inverse masses as if all bodies weighed 1 kg, at the farthest of their joints: a measure of bodies in which the rows of a
+/// light or slender one are like those of others.
+pub(super) fn equal_masses<T: Real>(links: &[Link], inertias: &[Inertia<T>]) -> Vec<[f64; D]> {
+    let mut sizes_m = vec![0.0_f64; inertias.len()];
+    for end in links.iter().flat_map(|link| [&link.a, &link.b]) {
+        if let (Some(body_idx), Some(size_m)) = (end.body_idx, end.size_m(inertias)) {
+            sizes_m[body_idx] = sizes_m[body_idx].max(size_m);
+        }
+    }
+    let inverse = |size_m: f64| if size_m > 0.0 { size_m.powi(-2) } else { 0.0 };
+    let each = sizes_m.into_iter().map(inverse);
+    each.map(|turn| join(Vector::from([1.0; 3]), Bivector::from([turn; 3]))).collect()
 }
 
 /// Where the bodies are.

@@ -111,7 +111,7 @@ impl End {
     }
 
     /// The root mean square distance of the body's mass from the point, m: `k² = r² + (I1 + I2 + I3) / (2 m)`.
-    fn size_m<T: Real>(&self, inertias: &[Inertia<T>]) -> Option<f64> {
+    pub(super) fn size_m<T: Real>(&self, inertias: &[Inertia<T>]) -> Option<f64> {
         let inertia = inertias.get(self.body_idx?).filter(|inertia| inertia.inv_mass > T::zero())?;
         let trace: f64 = (0..3).map(|i| inertia.inertia_body[i][i].to_f64()).sum();
         Some((self.arm.norm_sq() + 0.5 * trace / inertia.mass.to_f64()).sqrt())

@@ -1,5 +1,6 @@
 //! Bodies, joints and steppers that several tests use.
 
+use ga_physics::algebra::Real;
 use ga_physics::algebra::cga::Point;
 use ga_physics::algebra::g3::{Bivector, Rotor, Vector};
 use ga_physics::constraint::ProjectionError;
@@ -94,6 +95,30 @@ impl Case {
     pub(crate) fn energy(&self, bodies: &Bodies<f64>) -> f64 {
         totals(bodies, &self.inertias, &gravity()).energy()
     }
+}
+
+/// The same in f32.
+pub(crate) fn single(case: &Case) -> (Bodies<f32>, Vec<Inertia<f32>>, Vec<Joint<f32>>) {
+    let down = |x: Vector<f64>| x.map(f32::from_f64);
+    let end = |end: Attachment<f64>| match end {
+        Attachment::Body { body_idx, at_body } => Attachment::Body { body_idx, at_body: down(at_body) },
+        Attachment::World(point) => Attachment::World(point),
+    };
+    let joint = |joint: &Joint<f64>| match *joint {
+        Joint::Ball { a, b } => Joint::Ball { a: end(a), b: end(b) },
+        Joint::Distance { a, b, length } => Joint::Distance { a: end(a), b: end(b), length },
+        Joint::Hinge { a, b, axis_a, axis_b } => {
+            Joint::Hinge { a: end(a), b: end(b), axis_a: down(axis_a), axis_b: down(axis_b) }
+        }
+    };
+    let inertias = case.inertias.iter().map(|inertia| Inertia::new(inertia.mass, inertia.inertia_body).unwrap());
+    let mut bodies = Bodies::default();
+    for i in 0..case.bodies.len() {
+        let of = &case.bodies;
+        let (rotor, spin) = (of.rotor[i].map(f32::from_f64), of.angular_momentum[i].map(f32::from_f64));
+        bodies.push(of.position[i], rotor, down(of.momentum[i]), spin);
+    }
+    (bodies, inertias.collect(), case.joints.iter().map(joint).collect())
 }
 
 /// What moves.

@@ -1,12 +1,9 @@
 //! RATTLE on bodies: order, symmetry, energy.
 
-use crate::cases::{Case, GRAVITY, after, distance, fly, inertia_tensor, medley, rattle_step, run, vector};
-use ga_physics::algebra::Real;
-use ga_physics::algebra::g3::{Rotor, Vector};
+use crate::cases::{Case, GRAVITY, after, distance, fly, inertia_tensor, medley, rattle_step, run, single, vector};
+use ga_physics::algebra::g3::Rotor;
 use ga_physics::ode::{Composition, Dop853};
-use ga_physics::rigid::{
-    Attachment, Bodies, Forces, Form, Held, Inertia, Joint, Method, Motion, Setup, Solver, Steps, free,
-};
+use ga_physics::rigid::{Bodies, Forces, Form, Held, Inertia, Method, Motion, Setup, Solver, Steps, free};
 
 #[test]
 fn compositions_have_their_orders() {
@@ -79,28 +76,7 @@ fn projection_after_a_free_drift_is_worse() {
 #[test]
 fn in_f32_the_joints_hold_to_the_rounding_of_the_arms() {
     let case = medley();
-    let down = |x: Vector<f64>| x.map(f32::from_f64);
-    let end = |end: Attachment<f64>| match end {
-        Attachment::Body { body_idx, at_body } => Attachment::Body { body_idx, at_body: down(at_body) },
-        Attachment::World(point) => Attachment::World(point),
-    };
-    let joints: Vec<Joint<f32>> = (case.joints.iter())
-        .map(|joint| match *joint {
-            Joint::Ball { a, b } => Joint::Ball { a: end(a), b: end(b) },
-            Joint::Distance { a, b, length } => Joint::Distance { a: end(a), b: end(b), length },
-            Joint::Hinge { a, b, axis_a, axis_b } => {
-                Joint::Hinge { a: end(a), b: end(b), axis_a: down(axis_a), axis_b: down(axis_b) }
-            }
-        })
-        .collect();
-    let inertias: Vec<Inertia<f32>> =
-        case.inertias.iter().map(|inertia| Inertia::new(inertia.mass, inertia.inertia_body).unwrap()).collect();
-    let mut bodies = Bodies::<f32>::default();
-    for i in 0..case.bodies.len() {
-        let of = &case.bodies;
-        let (rotor, spin) = (of.rotor[i].map(f32::from_f64), of.angular_momentum[i].map(f32::from_f64));
-        bodies.push(of.position[i], rotor, down(of.momentum[i]), spin);
-    }
+    let (mut bodies, inertias, joints) = single(&case);
     let mut held = Held::new(&joints, &bodies, &inertias, 1e-12).unwrap();
     let (h_s, mut violation_m, mut redirected) = (0.005_f32, 0.0_f64, 0);
     for _ in 0..1000 {
