@@ -12,7 +12,7 @@
 //! The violation of a row is `|C| / max |g|` over its blocks: how far a single block would have to move, in metres where
 //! the coordinates are. A configuration may measure it otherwise ([`Configuration::worst_violation`]).
 
-use super::multipliers::displacement;
+use super::multipliers::{Solver, displacement};
 use super::rows::dot;
 use super::{InverseMass, Multipliers, Rows, SolveError};
 use thiserror::Error;
@@ -137,7 +137,7 @@ impl<const D: usize> Multipliers<D> {
 
     /// The same along the gradients of the last `freeze`, `q - W J_frozen^T mu`: the projection within a step of SHAKE and
     /// RATTLE (Andersen 1983), whose forces act along the gradients at the start of the step. `warm` is what part of the
-    /// last such mu to begin with: `(h / h_last)²` within a motion, 0 after anything else.
+    /// last such displacement to begin near: `(h / h_last)²` within a motion, 0 after anything else.
     ///
     /// Where the gradients turn too much within the step, or are singular, there is no such mu, or none is found in
     /// reasonable time. The way goes on along the present gradients then, and [`Projected::factorisations`] is not 0.
@@ -156,8 +156,7 @@ impl<const D: usize> Multipliers<D> {
         warm: f64,
     ) -> Result<Projected, ProjectionError> {
         assert!(self.valid, "no gradients are frozen: the projection along them needs a `freeze`");
-        self.along.iter_mut().for_each(|mu| *mu *= warm);
-        displacement(&self.frozen, inverse_mass, &self.along, &mut self.total);
+        self.begin(inverse_mass, warm)?;
         configuration.displace(&self.total);
         self.newton(rows, inverse_mass, configuration, tolerance_m, C::PATIENCE_ALONG)
     }
@@ -166,6 +165,34 @@ impl<const D: usize> Multipliers<D> {
     #[must_use]
     pub fn displacement(&self) -> &[[f64; D]] {
         &self.total
+    }
+
+    /// The beginning of a projection along frozen gradients: the displacement along them that comes nearest to a part of the
+    /// last one, in the norm of the kinetic energy.
+    ///
+    /// The last multipliers with the present gradients would be another displacement than the last: forces that balanced
+    /// each other on a light block then do not quite, and fling it away.
+    fn begin(&mut self, inverse_mass: &(impl InverseMass<D> + ?Sized), warm: f64) -> Result<(), SolveError> {
+        if warm == 0.0 || self.along.iter().all(|mu| *mu == 0.0) {
+            self.along.fill(0.0);
+            self.total.fill([0.0; D]);
+            return Ok(());
+        }
+        if let Solver::ConjugateGradients(_) = self.solver {
+            // They would take as long for it as for a step, and light blocks are not for them.
+            self.along.iter_mut().for_each(|mu| *mu *= warm);
+            displacement(&self.frozen, inverse_mass, &self.along, &mut self.total);
+            return Ok(());
+        }
+        let Self { frozen, total, along, .. } = self;
+        frozen.times(|block| total[block].map(|x| -warm * x), along);
+        let asked = core::mem::take(&mut self.along);
+        let begun = self.newton_step(inverse_mass, &asked);
+        self.along = asked;
+        begun?;
+        self.along.copy_from_slice(&self.lambda);
+        self.total.copy_from_slice(&self.step);
+        Ok(())
     }
 
     fn newton<C: Configuration<D>>(
