@@ -186,16 +186,6 @@ impl<T: Real> Force<T> {
         }
     }
 
-    /// Does it depend on velocities? Splitting methods keep their order only without.
-    #[must_use]
-    pub fn damps(&self) -> bool {
-        match self {
-            Self::AtPoint { .. } | Self::Torque { .. } => false,
-            Self::LinearDrag { .. } => true,
-            Self::Spring { damping, .. } => *damping != T::zero(),
-        }
-    }
-
     fn add_to(&self, state: &impl Formulation<T>, inertias: &[Inertia<T>], wrenches: &mut Wrenches<T>) {
         match self {
             Self::AtPoint { body_idx, at_body, force_world, .. } => {

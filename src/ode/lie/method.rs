@@ -5,9 +5,6 @@ use crate::algebra::Real;
 
 /// An explicit method of order 4 with four stages, at times 0, h/2, h/2, h.
 pub trait LieMethod {
-    /// The name.
-    const NAME: &'static str;
-
     /// Moves the start of a step to stage `index` (1, 2 or 3).
     fn stage<T: Real, S: LieState<T>>(index: usize, k: &[S::Rate; 5], scratch: &mut S::Rate, state: &mut S, h: T);
 
@@ -25,8 +22,6 @@ pub trait LieMethod {
 pub struct Rkmk4;
 
 impl LieMethod for Rkmk4 {
-    const NAME: &'static str = "rkmk4";
-
     #[inline(always)]
     fn stage<T: Real, S: LieState<T>>(index: usize, k: &[S::Rate; 5], scratch: &mut S::Rate, state: &mut S, h: T) {
         let half = h * T::ratio(1, 2);
@@ -60,8 +55,6 @@ impl LieMethod for Rkmk4 {
 pub struct CommutatorFree4;
 
 impl LieMethod for CommutatorFree4 {
-    const NAME: &'static str = "commutator_free";
-
     #[inline(always)]
     fn stage<T: Real, S: LieState<T>>(index: usize, k: &[S::Rate; 5], _: &mut S::Rate, state: &mut S, h: T) {
         let half = h * T::ratio(1, 2);
