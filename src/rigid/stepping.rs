@@ -44,7 +44,8 @@ fn divide(t_s: f64, span_s: f64, dt_s: f64) -> (u64, f64) {
 /// it. RK4 is stable to 2.8 and errs by `(1/2)^5 / 120` here, 3e-4 rad a step.
 const MAX_TURN_RAD: f64 = 1.0;
 
-/// Refuses steps in which a body turns too far by its `rate`, rad/s.
+/// Refuses steps in which a body turns too far by its `rate`, rad/s, at the start of a span. What spins up within a span of
+/// many steps shows at the start of the next.
 fn check_turns<T: Real>(
     bodies: &Bodies<T>,
     inertias: &[Inertia<T>],
@@ -63,7 +64,8 @@ fn check_turns<T: Real>(
 }
 
 /// The angular velocity or, if that is more, the rate at which it wobbles about where it is: the eigenvalues of Euler's
-/// equations `Li' = ci Lj Lk`, linearised, are at most `sqrt(c2 c3 L1² + c3 c1 L2² + c1 c2 L3²)`.
+/// equations `Li' = ci Lj Lk`, linearised, are at most `sqrt(c2 c3 L1² + c3 c1 L2² + c1 c2 L3²)`, and at most sqrt 2 times
+/// the root of the largest term, which stands for them here: a rate short of them by that is far inside of what is stable.
 fn turn_or_wobble(momentum: [f64; 3], moments: [f64; 3]) -> f64 {
     let [b1, b2, b3] = moments.map(f64::recip);
     let [l1, l2, l3] = momentum;
