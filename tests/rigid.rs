@@ -8,8 +8,8 @@ use ga_physics::algebra::g3::{Bivector, Rotor, Vector};
 use ga_physics::ode::{OdeError, Rk4, RungeKutta};
 use ga_physics::rigid::rotor::{self, Rates};
 use ga_physics::rigid::{
-    Attachment, Bodies, Force, Forces, Inertia, InertiaError, Method, Motion, MotionError, Setup, Solver, SolverError,
-    Steps, Wrenches, totals,
+    Attachment, Bodies, Force, Forces, Inertia, InertiaError, Joint, JointError, Method, Motion, MotionError, Setup,
+    Solver, SolverError, Steps, Wrenches, totals,
 };
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -395,6 +395,30 @@ fn bodies_solved_in_two_ways_move_as_if_alone_and_must_not_be_linked() {
     let forces = Forces { forces: vec![spring], ..setup.forces };
     let linked = Motion::mixed(Setup { forces, ..setup }, &start, &[(first, vec![0]), (second, vec![1])]).err();
     assert_eq!(linked, Some(SolverError::Linked { a: 0, b: 1 }));
+}
+
+#[test]
+fn bodies_that_do_not_exist_and_joints_that_do_not_meet_are_told_by_their_number() {
+    let (start, inertias, forces) = thrown();
+    let setup = Setup { inertias, forces, joints: vec![] };
+    let solver = Solver::fixed(Method::Yoshida4, 0.01);
+    let missing = Some(SolverError::NoSuchBody { body_idx: 7, bodies: 2 });
+    let lists = |second| [(solver, vec![0]), (solver, vec![second])];
+    assert_eq!(Motion::mixed(setup.clone(), &start, &lists(7)).err(), missing);
+    let mut drawn = setup.clone();
+    drawn.forces.forces.push(Force::LinearDrag { body_idx: 7, k: 0.1, k_angular: 0.0 });
+    assert_eq!(Motion::new(drawn.clone(), &start, &solver).err(), missing);
+    assert_eq!(Motion::mixed(drawn, &start, &lists(1)).err(), missing);
+
+    let on = |body_idx| Attachment::Body { body_idx, at_body: Vector::default() };
+    let moved = start.position[1].moved(Vector::new(1.0, 0.0, 0.0));
+    let ends = [Attachment::World(start.position[0]), Attachment::World(moved)];
+    let joints = (0..2).map(|body_idx| Joint::Ball { a: on(body_idx), b: ends[body_idx] }).collect();
+    let apart = Motion::mixed(Setup { joints, ..setup.clone() }, &start, &lists(1)).err();
+    assert!(matches!(apart, Some(SolverError::Joint(JointError::Apart { joint: 1, .. }))), "{apart:?}");
+    let joints = vec![Joint::Ball { a: on(0), b: ends[0] }, Joint::Ball { a: on(1), b: on(7) }];
+    let missing = Motion::mixed(Setup { joints, ..setup }, &start, &lists(1)).err();
+    assert_eq!(missing, Some(SolverError::Joint(JointError::NoSuchBody { joint: 1, body_idx: 7, bodies: 2 })));
 }
 
 #[test]

@@ -98,6 +98,14 @@ pub enum SolverError {
         "`free_flight` is for bodies under uniform gravity alone, without other forces and joints: choose `yoshida4`"
     )]
     NotFree,
+    /// A body that does not exist.
+    #[error("a force acts on body {body_idx}, or a list of bodies names it, but there are {bodies}")]
+    NoSuchBody {
+        /// The body.
+        body_idx: usize,
+        /// Their number.
+        bodies: usize,
+    },
     /// Bodies that are solved in different ways, and linked.
     #[error("bodies {a} and {b} are linked by a force or joint and must be solved alike: give them one formulation")]
     Linked {

@@ -142,6 +142,24 @@ pub enum JointError {
     },
 }
 
+impl JointError {
+    /// The same of a joint that has another index.
+    pub(super) fn renumbered(mut self, index_of: impl FnOnce(usize) -> usize) -> Self {
+        match &mut self {
+            Self::Sizes { .. } => {}
+            Self::NoSuchBody { joint, .. }
+            | Self::SameBody { joint, .. }
+            | Self::Immovable { joint }
+            | Self::NotFinite { joint }
+            | Self::ZeroAxis { joint }
+            | Self::Length { joint, .. }
+            | Self::Apart { joint, .. }
+            | Self::AxesApart { joint, .. } => *joint = index_of(*joint),
+        }
+        self
+    }
+}
+
 /// Checks what does not depend on where the bodies are. `movable` says of a body whether anything moves it.
 pub(super) fn check<T: Real>(joint: usize, what: &Joint<T>, movable: &[bool]) -> Result<(), JointError> {
     let bodies = movable.len();

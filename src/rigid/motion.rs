@@ -5,8 +5,8 @@ use super::flight::Flight;
 use super::matrix;
 use super::stepping::{AdaptiveSteps, Advance, Composed, FixedSteps};
 use super::{
-    Bodies, Forces, Form, Formulation, Inertia, Joint, Method, MotionError, Setup, Solver, SolverError, Steps, System,
-    Totals, motor, quaternion, totals,
+    Bodies, Forces, Form, Formulation, Inertia, Method, MotionError, Setup, Solver, SolverError, Steps, System, Totals,
+    motor, quaternion, totals,
 };
 use crate::algebra::Real;
 use crate::ode::lie::{CommutatorFree4, LieRungeKutta, LieState, LieStepper, Rkmk4};
@@ -56,15 +56,17 @@ impl<T: Real> Motion<T> {
     /// Some bodies solved in one way, some in another. Every body is in one list; forces and joints stay within a list.
     ///
     /// # Errors
-    /// As [`Motion::new`]; bodies of two lists that something links.
+    /// As [`Motion::new`]; bodies that do not exist, bodies of two lists that something links.
     pub fn mixed(setup: Setup<T>, bodies: &Bodies<T>, lists: &[(Solver, Vec<usize>)]) -> Result<Self, SolverError> {
+        setup.check(bodies.len(), lists.iter().flat_map(|(_, own)| own.iter().copied()))?;
         let mut forms = vec![Form::default(); bodies.len()];
         let mut parts = vec![];
         for (solver, own) in lists {
             if !solver.method.fits(solver.form) {
                 return Err(SolverError::DoesNotFit { method: solver.method, form: solver.form });
             }
-            let system = System::new(setup.of(own)?, bodies, solver)?;
+            let system = System::new(setup.of(own)?, bodies, solver);
+            let system = system.map_err(|error| error.renumbered(|joint| setup.joint_of(own, joint)))?;
             if solver.method == Method::FreeFlight
                 && !(system.setup.forces.forces.is_empty() && system.setup.joints.is_empty())
             {
@@ -100,7 +102,9 @@ impl<T: Real> Motion<T> {
             part.bodies.iter().for_each(|body_idx| bodies.assign_body(*body_idx, &state));
             part.state = state;
             done.map_err(|error| match error {
-                OdeError::System(error) => OdeError::System(error.renumbered(|joint| part.joint(&self.setup, joint))),
+                OdeError::System(error) => {
+                    OdeError::System(error.renumbered(|joint| self.setup.joint_of(&part.bodies, joint)))
+                }
                 error => error,
             })?;
         }
@@ -139,7 +143,7 @@ impl<T: Real> Motion<T> {
         for part in &mut self.parts {
             let projected = part.system.held.project_velocities(bodies);
             let failed = |source| MotionError::Multipliers { time_s, source };
-            projected.map_err(|source| failed(source).renumbered(|joint| part.joint(&self.setup, joint)))?;
+            projected.map_err(|source| failed(source).renumbered(|joint| self.setup.joint_of(&part.bodies, joint)))?;
         }
         Ok(())
     }
@@ -187,16 +191,6 @@ impl<T: Real> Motion<T> {
 }
 
 impl<T: Real> Part<T> {
-    /// The index among all joints of one of its own.
-    fn joint(&self, whole: &Setup<T>, own: usize) -> usize {
-        let movable = |body_idx: &usize| !whole.inertias[*body_idx].is_immovable();
-        let of_part = |joint: &Joint<T>| {
-            joint.bodies().into_iter().flatten().filter(movable).any(|body_idx| self.bodies.contains(&body_idx))
-        };
-        let all = whole.joints.iter().enumerate().filter(|(_, joint)| of_part(joint));
-        all.map(|(index, _)| index).nth(own).unwrap_or(own)
-    }
-
     fn advance(&mut self, bodies: &mut Bodies<T>, t_s: f64, span_s: f64) -> Result<(), OdeError<MotionError>> {
         let end_s = t_s + span_s;
         let mut from_s = t_s;

@@ -4,8 +4,8 @@
 //! motion of all bodies: exact, or split into rotations about the principal axes.
 
 use super::{
-    Bodies, Forces, Formulation, Held, Inertia, Joint, JointError, MotionError, Solver, SolverError, Wrenches,
-    axis_splitting, free,
+    Bodies, Force, Forces, Formulation, Held, Inertia, Joint, JointError, MotionError, Solver, SolverError, Wrenches,
+    axis_splitting, free, joint,
 };
 use crate::algebra::Real;
 use crate::algebra::g3::{Bivector, Rotor, Vector};
@@ -30,6 +30,32 @@ pub struct Setup<T> {
 }
 
 impl<T: Real> Setup<T> {
+    /// Whether there are the bodies that forces, joints and lists of bodies name.
+    pub(super) fn check(&self, bodies: usize, mut listed: impl Iterator<Item = usize>) -> Result<(), SolverError> {
+        let inertias = self.inertias.len();
+        if bodies != inertias {
+            return Err(JointError::Sizes { bodies, inertias }.into());
+        }
+        let movable: Vec<bool> = self.inertias.iter().map(|inertia| !inertia.is_immovable()).collect();
+        self.joints.iter().enumerate().try_for_each(|(index, joint)| joint::check(index, joint, &movable))?;
+        let missing = |body_idx: &usize| *body_idx >= bodies;
+        let mut forced = self.forces.forces.iter().flat_map(Force::bodies).flatten();
+        match forced.find(missing).or_else(|| listed.find(missing)) {
+            Some(body_idx) => Err(SolverError::NoSuchBody { body_idx, bodies }),
+            None => Ok(()),
+        }
+    }
+
+    /// The index among all joints of one of those that some bodies have, which are solved alike.
+    pub(super) fn joint_of(&self, bodies: &[usize], own: usize) -> usize {
+        let movable = |body_idx: &usize| !self.inertias[*body_idx].is_immovable();
+        let is_own = |joint: &Joint<T>| {
+            joint.bodies().into_iter().flatten().filter(movable).any(|body_idx| bodies.contains(&body_idx))
+        };
+        let all = self.joints.iter().enumerate().filter(|(_, joint)| is_own(joint));
+        all.map(|(index, _)| index).nth(own).unwrap_or(own)
+    }
+
     /// What some of the bodies are subject to: the others are immovable, and have no forces and joints.
     pub(super) fn of(&self, own: &[usize]) -> Result<Self, SolverError> {
         if own.len() == self.inertias.len() {
