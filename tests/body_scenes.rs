@@ -332,8 +332,8 @@ fn a_joint_that_cannot_be_held_is_named_also_among_bodies_of_several_formulation
     let path = directory.path().join("scene.toml");
     fs::write(&path, format!("{head}{free}[[body]]{top}")).unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_ga-physics"));
-    let output =
-        command.arg("run").arg(&path).args(["--set", "dt_s=0.5"]).current_dir(directory.path()).output().unwrap();
+    let sets = ["--set", "dt_s=0.5", "--set", "solver.method=\"yoshida4\""];
+    let output = command.arg("run").arg(&path).args(sets).current_dir(directory.path()).output().unwrap();
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{message}");
     assert!(message.contains("the ball joint of `top`") && message.contains("smaller `dt_s`"), "{message}");

@@ -18,7 +18,7 @@ pub(super) fn explain<T: Real>(error: &SimulationError, world: &World<T>, cast: 
         }
         SimulationError::StaysInContact { a, b, time_s } => format!(
             "bodies `{}` and `{}` stay in contact from {time_s:.6} s on: their bounces follow one another without end, and \
-             resting contact is not modelled; end the run before (`duration_s`), or raise `contact.restitution`",
+             resting contact is not modelled; end the run before (`duration_s`), or raise `contact.restitution` if it is below 1",
             names[*a], names[*b]
         ),
         SimulationError::OutOfRange { body_idx, time_s } => format!(

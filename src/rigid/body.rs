@@ -45,7 +45,7 @@ impl<T: Real> Bodies<T> {
         size_of::<Point<f64>>() + size_of::<Rotor<T>>() + size_of::<Vector<T>>() + size_of::<Bivector<T>>()
     }
 
-    /// Adds a body.
+    /// Adds a body; its angular momentum is that in the world, `R apply (I Omega_body)`.
     pub fn push(&mut self, position: Point<f64>, rotor: Rotor<T>, momentum: Vector<T>, angular_momentum: Bivector<T>) {
         self.position.push(position);
         self.rotor.push(rotor);

@@ -78,9 +78,10 @@ impl BodySolverPlan {
         match self.method {
             _ if self.adaptive => None,
             Method::FreeFlight | Method::Euler | Method::Xpbd => Some(0),
-            Method::Verlet | Method::Splitting2 => Some(1),
-            Method::Yoshida4 | Method::Splitting4 => Some(3),
-            Method::Yoshida6 | Method::Splitting6 => Some(7),
+            // The kick at the start of a step is evaluated anew, for something may have struck since.
+            Method::Verlet | Method::Splitting2 => Some(2),
+            Method::Yoshida4 | Method::Splitting4 => Some(4),
+            Method::Yoshida6 | Method::Splitting6 => Some(8),
             Method::Rk4 | Method::Rk4Doubling | Method::Rkmk4 => Some(4),
             Method::CommutatorFree => Some(4),
             Method::CashKarp | Method::Tsit5 => Some(6),
@@ -145,14 +146,19 @@ fn best(scene: &Scene, formulation: Formulation, loads: &Loads) -> (Method, rigi
             false => (Method::Tsit5, rigid::Method::Tsit5, "steps by error, and a tolerance at which a low order pays"),
         };
     }
-    if !rotor {
-        return (Method::Rk4, rigid::Method::Rk4, "steps of `dt_s`, by the method that all formulations have");
-    }
     if loads.dissipate() {
         let why = "steps of `dt_s`, and forces that depend on the velocity: a high order";
         return (Method::Tsit5, rigid::Method::Tsit5, why);
     }
-    let why = "steps of `dt_s`: exact turns between kicks of forces and joints, which keep the energy";
+    if loads.joints > 0 {
+        // On chains, loops, pendulums and tops RATTLE of order 4 takes two to four times its time at 20 to 1000 times its error.
+        let why = "steps of `dt_s`, and joints: a high order errs less than exact turns between kicks, in less time";
+        return (Method::Tsit5, rigid::Method::Tsit5, why);
+    }
+    if !rotor {
+        return (Method::Rk4, rigid::Method::Rk4, "steps of `dt_s`, by the method that all formulations have");
+    }
+    let why = "steps of `dt_s`: exact turns between kicks of forces, which keep the energy";
     (Method::Yoshida4, rigid::Method::Yoshida4, why)
 }
 
