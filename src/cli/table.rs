@@ -69,7 +69,13 @@ fn steps(summary: &Summary) -> String {
     };
     let bodies = summary.body_work.as_ref().map(|work| {
         let solvers = &summary.settings.body_solvers;
-        let methods: Vec<&str> = solvers.iter().map(|solver| solver.method.as_str()).collect();
+        // Each once, in the order of the formulations.
+        let mut methods: Vec<&str> = Vec::new();
+        for solver in solvers {
+            if !methods.contains(&solver.method.as_str()) {
+                methods.push(&solver.method);
+            }
+        }
         match methods[..] {
             [] => "none".to_owned(),
             ["free_flight"] => format!("none: free flight, evaluated {} times", work.accepted_steps),
