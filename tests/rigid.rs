@@ -9,7 +9,7 @@ use ga_physics::ode::{OdeError, Rk4, RungeKutta};
 use ga_physics::rigid::rotor::{self, Rates};
 use ga_physics::rigid::{
     Attachment, Bodies, Force, Forces, Inertia, InertiaError, Joint, JointError, Method, Motion, MotionError, Setup,
-    Solver, SolverError, Steps, Wrenches, totals,
+    Solver, SolverError, Wrenches, totals,
 };
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -269,7 +269,7 @@ fn steps_by_a_tolerance_do_not_cross_the_end_of_a_force() {
         let torque_world = Bivector::new(0.0, 0.0, 2.0);
         let push = Force::Torque { body_idx: 0, torque_world, start_s: 0.0, end_s };
         let setup = Setup { inertias, forces: Forces { forces: vec![push], ..Forces::default() }, joints: vec![] };
-        let solver = Solver::fixed(Method::Tsit5, 0.1).with_steps(Steps::Adaptive { tolerance });
+        let solver = Solver::adaptive(Method::Tsit5, tolerance);
         let mut motion = Motion::new(setup, &bodies, &solver).unwrap();
         (0..10).for_each(|frame| motion.advance(&mut bodies, f64::from(frame) * 0.1, 0.1).unwrap());
         assert!((bodies.angular_momentum[0].e12 - 2.0 * end_s).abs() < 1e-14, "{:?}", bodies.angular_momentum[0]);
@@ -308,7 +308,7 @@ fn steps_by_a_tolerance_are_as_many_beside_other_bodies_as_alone() {
     let (start, inertias, forces) = thrown();
     let setup = Setup { inertias, forces, joints: vec![] };
     let tolerance = ga_physics::ode::Tolerance { rtol: 1e-9, atol: 1e-9 };
-    let by_tolerance = Solver::fixed(Method::Dop853, 0.1).with_steps(Steps::Adaptive { tolerance });
+    let by_tolerance = Solver::adaptive(Method::Dop853, tolerance);
     let steps = |lists: &[(Solver, Vec<usize>)]| {
         let (mut bodies, mut motion) = (start.clone(), Motion::mixed(setup.clone(), &start, lists).unwrap());
         (0..100).for_each(|frame| motion.advance(&mut bodies, f64::from(frame) * 0.01, 0.01).unwrap());
@@ -409,6 +409,9 @@ fn bodies_that_do_not_exist_and_joints_that_do_not_meet_are_told_by_their_number
     drawn.forces.forces.push(Force::LinearDrag { body_idx: 7, k: 0.1, k_angular: 0.0 });
     assert_eq!(Motion::new(drawn.clone(), &start, &solver).err(), missing);
     assert_eq!(Motion::mixed(drawn, &start, &lists(1)).err(), missing);
+    let mut no_number = setup.clone();
+    no_number.forces.forces.push(Force::LinearDrag { body_idx: 0, k: f64::NAN, k_angular: 0.0 });
+    assert_eq!(Motion::new(no_number, &start, &solver).err(), Some(SolverError::ForceNotFinite { force: 0 }));
 
     let on = |body_idx| Attachment::Body { body_idx, at_body: Vector::default() };
     let moved = start.position[1].moved(Vector::new(1.0, 0.0, 0.0));

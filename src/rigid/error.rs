@@ -98,6 +98,12 @@ pub enum SolverError {
         "`free_flight` is for bodies under uniform gravity alone, without other forces and joints: choose `yoshida4`"
     )]
     NotFree,
+    /// A force that is no number.
+    #[error("force {force}: a number of it is not finite")]
+    ForceNotFinite {
+        /// Which.
+        force: usize,
+    },
     /// A body that does not exist.
     #[error("a force acts on body {body_idx}, or a list of bodies names it, but there are {bodies}")]
     NoSuchBody {

@@ -186,6 +186,28 @@ impl<T: Real> Force<T> {
         }
     }
 
+    /// Whether its numbers are finite. It may last forever.
+    pub(super) fn is_finite(&self) -> bool {
+        let all = |numbers: &[T]| numbers.iter().all(|x| x.is_finite());
+        let vector = |v: Vector<T>| all(&<[T; 3]>::from(v));
+        let end = |end: &Attachment<T>| match end {
+            Attachment::Body { at_body, .. } => vector(*at_body),
+            Attachment::World(point) => <[f64; 3]>::from(*point).iter().all(|x| x.is_finite()),
+        };
+        match self {
+            Self::AtPoint { at_body, force_world, start_s, end_s, .. } => {
+                vector(*at_body) && vector(*force_world) && !start_s.is_nan() && !end_s.is_nan()
+            }
+            Self::Torque { torque_world, start_s, end_s, .. } => {
+                all(&<[T; 3]>::from(*torque_world)) && !start_s.is_nan() && !end_s.is_nan()
+            }
+            Self::LinearDrag { k, k_angular, .. } => all(&[*k, *k_angular]),
+            Self::Spring { a, b, stiffness, damping, rest_length } => {
+                end(a) && end(b) && all(&[*stiffness, *damping, *rest_length])
+            }
+        }
+    }
+
     fn add_to(&self, state: &impl Formulation<T>, inertias: &[Inertia<T>], wrenches: &mut Wrenches<T>) {
         match self {
             Self::AtPoint { body_idx, at_body, force_world, .. } => {

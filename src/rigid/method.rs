@@ -1,6 +1,6 @@
 //! How the motion of bodies is solved: what a scene says, and what the plan picks.
 
-use crate::ode::Composition;
+use crate::ode::{Composition, Tolerance};
 pub use crate::particle::Steps;
 
 /// A formulation of rigid motion.
@@ -170,15 +170,15 @@ impl Solver {
         Self { form: Form::Rotor, method, steps: Steps::Fixed { dt_s }, violation: VIOLATION }
     }
 
+    /// Steps by a tolerance, in the rotor form.
+    #[must_use]
+    pub fn adaptive(method: Method, tolerance: Tolerance<f64>) -> Self {
+        Self { steps: Steps::Adaptive { tolerance }, ..Self::fixed(method, 1.0) }
+    }
+
     /// The same in another formulation.
     #[must_use]
     pub fn in_form(self, form: Form) -> Self {
         Self { form, ..self }
-    }
-
-    /// Steps by a tolerance instead.
-    #[must_use]
-    pub fn with_steps(self, steps: Steps) -> Self {
-        Self { steps, ..self }
     }
 }

@@ -30,7 +30,7 @@ pub struct Setup<T> {
 }
 
 impl<T: Real> Setup<T> {
-    /// Whether there are the bodies that forces, joints and lists of bodies name.
+    /// Whether there are the bodies that forces, joints and lists of bodies name, and forces are numbers.
     pub(super) fn check(&self, bodies: usize, mut listed: impl Iterator<Item = usize>) -> Result<(), SolverError> {
         let inertias = self.inertias.len();
         if bodies != inertias {
@@ -40,8 +40,11 @@ impl<T: Real> Setup<T> {
         self.joints.iter().enumerate().try_for_each(|(index, joint)| joint::check(index, joint, &movable))?;
         let missing = |body_idx: &usize| *body_idx >= bodies;
         let mut forced = self.forces.forces.iter().flat_map(Force::bodies).flatten();
-        match forced.find(missing).or_else(|| listed.find(missing)) {
-            Some(body_idx) => Err(SolverError::NoSuchBody { body_idx, bodies }),
+        if let Some(body_idx) = forced.find(missing).or_else(|| listed.find(missing)) {
+            return Err(SolverError::NoSuchBody { body_idx, bodies });
+        }
+        match self.forces.forces.iter().position(|force| !force.is_finite()) {
+            Some(force) => Err(SolverError::ForceNotFinite { force }),
             None => Ok(()),
         }
     }

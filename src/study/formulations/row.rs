@@ -35,7 +35,7 @@ impl Setting {
     /// Steps by a tolerance.
     pub(super) fn adaptive(form: Form, method: Method, tolerance: f64) -> Self {
         let steps = Steps::Adaptive { tolerance: Tolerance { rtol: tolerance, atol: tolerance } };
-        let solver = Solver::fixed(method, 1.0).in_form(form).with_steps(steps);
+        let solver = Solver { steps, ..Solver::fixed(method, 1.0).in_form(form) };
         Self { form: form.name(), method: method.name(), steps: None, tolerance: Some(tolerance), solver }
     }
 
