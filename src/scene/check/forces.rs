@@ -106,9 +106,10 @@ impl Checker {
             };
             match force {
                 Force::LinearDrag(drag) if drag.body.is_none() => {
-                    self.dragged(drag.particle.as_ref(), &drag.k_kg_s, scene, roster);
+                    let needs_body = roster.len() == 0 && !scene.body.is_empty();
+                    self.dragged(drag.particle.as_ref(), &drag.k_kg_s, needs_body, roster);
                 }
-                Force::QuadraticDrag(drag) => self.dragged(drag.particle.as_ref(), &drag.k_kg_m, scene, roster),
+                Force::QuadraticDrag(drag) => self.dragged(drag.particle.as_ref(), &drag.k_kg_m, false, roster),
                 Force::InverseSquare(force) => {
                     self.some_particles(&force.constant_m3_kg_s2, roster);
                     if *force.softening_m.get_ref() == 0.0 {
@@ -140,10 +141,10 @@ impl Checker {
         }
     }
 
-    /// A drag acts on a body, on what it names, or on all particles.
-    fn dragged(&mut self, particle: Option<&Spanned<String>>, k: &Spanned<f64>, scene: &Scene, roster: &Roster) {
+    /// A drag acts on what it names, or on all particles; where there are none, one that could act on a body should name it.
+    fn dragged(&mut self, particle: Option<&Spanned<String>>, k: &Spanned<f64>, needs_body: bool, roster: &Roster) {
         match particle {
-            None if roster.len() == 0 && !scene.body.is_empty() => {
+            None if needs_body => {
                 let diagnostic = Diagnostic::new("the drag names no body").at(k.span());
                 self.report(
                     diagnostic.help("add `body = ..`; without it the drag acts on particles, and there are none"),
