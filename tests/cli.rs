@@ -78,6 +78,7 @@ fn shortened(scene: &str) -> &'static [&'static str] {
         "body-chain" => &["--set", "duration_s=0.02"],
         "chain" => &["--set", "duration_s=0.2"],
         "compound-pendulum" => &["--set", "duration_s=0.2"],
+        "door" => &["--set", "duration_s=1"],
         "four-bar" => &["--set", "duration_s=0.1"],
         "heavy-top" => &["--set", "duration_s=0.3"],
         "matrix-drift" => &["--set", "duration_s=4"],

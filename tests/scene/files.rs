@@ -23,6 +23,7 @@ fn every_shipped_scene_loads() {
         "chain",
         "compound-pendulum",
         "cube-and-pyramid",
+        "door",
         "double-pendulum",
         "four-bar",
         "free-collision",
